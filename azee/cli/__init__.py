@@ -1,0 +1,1 @@
+"""The `azee` command, one module per subcommand."""

@@ -1,0 +1,1 @@
+"""Clips and scores written in formats that others can open."""

@@ -1,0 +1,1 @@
+"""The AZee language at work: values, evaluation and rule libraries."""

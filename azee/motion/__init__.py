@@ -1,0 +1,1 @@
+"""From scores to motion: keyframes, curves and clips."""

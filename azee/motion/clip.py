@@ -1,0 +1,43 @@
+"""Motion as data: coordinates and face weights over time, with labels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A named interval of a clip, such as a block of the score. Depth 0 is outermost."""
+
+    text: str
+    start_s: float
+    end_s: float
+    depth: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Clip:
+    """Motion of one rig.
+
+    times: (T,) seconds, increasing. coordinates: (T, V) radians, in the rig's order.
+    units: names of the M face units that ever move; unit_weights: (T, M).
+    labels: blocks and utterances, in order of start.
+    """
+
+    times: NDArray[np.float64]
+    coordinates: NDArray[np.float64]
+    units: tuple[str, ...]
+    unit_weights: NDArray[np.float64]
+    labels: tuple[Label, ...] = ()
+
+    def __post_init__(self) -> None:
+        frames = len(self.times)
+        if len(self.coordinates) != frames or self.unit_weights.shape != (frames, len(self.units)):
+            raise ValueError("times, coordinates and unit weights do not fit each other")
+        for name in ("times", "coordinates", "unit_weights"):
+            array = np.array(getattr(self, name), dtype=np.float64)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)

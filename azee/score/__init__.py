@@ -1,0 +1,1 @@
+"""Nested timed scores: what an AZee expression evaluates to."""

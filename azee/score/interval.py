@@ -1,0 +1,31 @@
+"""Half-open intervals of exact time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Interval:
+    """`[start, end)` in seconds, exact. The frame is named where an interval is kept."""
+
+    start: Fraction
+    end: Fraction
+
+    def __post_init__(self) -> None:
+        if self.end < self.start:
+            raise ValueError(f"an interval cannot end ({self.end}) before it starts ({self.start})")
+
+    @property
+    def duration(self) -> Fraction:
+        """Length in seconds; zero is legal."""
+        return self.end - self.start
+
+    def shifted(self, by: Fraction) -> Interval:
+        """Return it moved later by `by` seconds."""
+        return Interval(self.start + by, self.end + by)
+
+    def scaled(self, factor: Fraction) -> Interval:
+        """Return it with both bounds multiplied."""
+        return Interval(self.start * factor, self.end * factor)

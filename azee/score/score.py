@@ -1,0 +1,127 @@
+"""Scores: what AZee expressions evaluate to. Nested, exactly timed, independent of any rig.
+
+A leaf says what the body does for a while: `Key` holds a set of constraints, `Hold` keeps what
+another block reached, `Blank` asks for nothing. A `Group` places named blocks on its own time
+line, which starts at zero with its earliest block and ends with its latest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+from typing import TypeAlias
+
+from azee.score.interval import Interval
+from azee_solver.constraint import Constraint, Origin
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """The rule application that a score came from."""
+
+    rule: str
+    origin: Origin | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class _Score:
+    duration: Fraction
+    calls: tuple[Call, ...] = field(default=(), kw_only=True)
+    """Rules whose result this score is, outermost first; empty for a score built in place."""
+    fixed: bool = field(default=False, kw_only=True)
+    """Keeps its length when what it stands in is stretched."""
+
+
+@dataclass(frozen=True, slots=True)
+class Key(_Score):
+    """A set of constraints kept for a duration; zero is legal."""
+
+    constraints: tuple[Constraint, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Hold(_Score):
+    """Keeps what the sibling `block` of the enclosing group had reached at its end.
+
+    `channels` are names of `CHANNELS`.
+    """
+
+    block: str = ""
+    channels: tuple[str, ...] = ("hands",)
+
+
+CHANNELS = ("hands", "face", "head", "trunk", "eyes")
+
+
+@dataclass(frozen=True, slots=True)
+class Blank(_Score):
+    """Asks for nothing."""
+
+
+class Arrangement(Enum):
+    """How a group's blocks were laid out; their intervals are exact either way."""
+
+    SYNC = "sync"
+    SEQ = "seq"
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A named score at its place on the time line of its group."""
+
+    name: str
+    interval_in_parent: Interval
+    score: Score
+
+
+@dataclass(frozen=True, slots=True)
+class Group(_Score):
+    """Named blocks on one time line. Names are unique; in a `seq` they are `1`, `2` and so on."""
+
+    arrangement: Arrangement = Arrangement.SYNC
+    blocks: tuple[Block, ...] = ()
+
+    def block(self, name: str) -> Block:
+        """Return the block of that name. Raises KeyError."""
+        for block in self.blocks:
+            if block.name == name:
+                return block
+        raise KeyError(name)
+
+
+Score: TypeAlias = Key | Hold | Blank | Group
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """A leaf of a nested score on the one time line of the whole."""
+
+    path: tuple[str, ...]
+    """Names of the blocks that lead to it, outermost first."""
+    interval: Interval
+    """On the time line of the whole score."""
+    score: Key | Hold | Blank
+    parents: tuple[Group, ...]
+    """The groups it stands in, outermost first, one per name in `path`."""
+
+
+def leaves(score: Score) -> Iterator[Leaf]:
+    """Yield all leaves in order of nesting, on the time line of `score`, which starts at zero."""
+    yield from _leaves(score, (), Fraction(0), ())
+
+
+def _leaves(
+    score: Score, path: tuple[str, ...], start: Fraction, parents: tuple[Group, ...]
+) -> Iterator[Leaf]:
+    if isinstance(score, Group):
+        for block in score.blocks:
+            yield from _leaves(
+                block.score,
+                (*path, block.name),
+                start + block.interval_in_parent.start,
+                (*parents, score),
+            )
+    else:
+        yield Leaf(path, Interval(start, start + score.duration), score, parents)

@@ -1,0 +1,1 @@
+"""The AZee language as text: source, diagnostics, syntax tree, parser and vocabulary."""

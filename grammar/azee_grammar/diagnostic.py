@@ -1,0 +1,49 @@
+"""What is wrong with a text, as plain data; `render` (render.py) makes it readable."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+
+from azee_grammar.source import Span
+
+
+class Severity(Enum):
+    """How bad it is: an error stops the text from being used, a warning does not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True)
+class Related:
+    """A further place that helps to understand, such as a call on the rule call stack."""
+
+    message: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One mistake: a stable kebab-case code, the user's words, the place and the remedy.
+
+    `span` is None where no text is at hand, as for a file that cannot be read.
+    `label` stands behind the caret; `related` holds the rule call stack, innermost first.
+    """
+
+    code: str
+    message: str
+    span: Span | None
+    label: str = ""
+    notes: tuple[str, ...] = ()
+    help: str | None = None
+    related: tuple[Related, ...] = ()
+    severity: Severity = field(default=Severity.ERROR)
+
+
+class AZeeError(Exception):
+    """The input is at fault. Carries one or more diagnostics; nobody prints them on the way."""
+
+    def __init__(self, *diagnostics: Diagnostic) -> None:
+        super().__init__("; ".join(f"{d.code}: {d.message}" for d in diagnostics))
+        self.diagnostics = diagnostics

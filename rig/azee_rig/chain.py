@@ -1,0 +1,88 @@
+"""The kinematic chain that inverse kinematics moves: AZee bones coupled onto the body's joints.
+
+Every node has a frame whose columns are x, dir and nrm (x = dir × nrm). Its rotation is
+
+    R_node = R_parent · zero_node · Π_d rot(axis_d, scale_d · q[coordinate_d])
+
+over its degrees of freedom in order, and its origin R_parent · offset_node + p_parent. One
+coordinate may drive several nodes (the trunk's are spread over the spine), with a share each.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.skeleton import frozen
+
+X, DIR, NRM = 0, 1, 2
+"""Columns of a node's frame."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """World frames of all nodes: positions (…, B, 3) metres, rotations (…, B, 3, 3)."""
+
+    positions: NDArray[np.float64]
+    rotations: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """Nodes of the chain, parents before children, as flat arrays that kernels can read.
+
+    names: (B,). parents: (B,), −1 for the root. offsets: (B, 3) in the parent's frame, metres.
+    zero: (B, 3, 3) frame in the parent's at q = 0. dof_start: (B + 1,) node b has the degrees of
+    freedom dof_start[b] … dof_start[b + 1] − 1. dof_axis: (D,) column 0, 1 or 2. dof_scale: (D,)
+    sign and share. dof_coordinate: (D,) index into the coordinates.
+    """
+
+    names: tuple[str, ...]
+    parents: NDArray[np.int64]
+    offsets: NDArray[np.float64]
+    zero: NDArray[np.float64]
+    dof_start: NDArray[np.int64]
+    dof_axis: NDArray[np.int64]
+    dof_scale: NDArray[np.float64]
+    dof_coordinate: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        for name in ("parents", "dof_start", "dof_axis", "dof_coordinate"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.int64))
+        for name in ("offsets", "zero", "dof_scale"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.float64))
+
+    def frames(self, q: NDArray[np.float64]) -> Frames:
+        """Forward kinematics of one posture or many.
+
+        Args: q: (…, V) coordinates, radians.
+        """
+        q = np.asarray(q, dtype=np.float64)
+        batch, count = q.shape[:-1], len(self.names)
+        positions = np.empty((*batch, count, 3))
+        rotations = np.empty((*batch, count, 3, 3))
+        for b in range(count):
+            p = self.parents[b]
+            if p < 0:
+                R = np.broadcast_to(self.zero[b], (*batch, 3, 3)).copy()
+                positions[..., b, :] = self.offsets[b]
+            else:
+                positions[..., b, :] = (
+                    positions[..., p, :] + rotations[..., p, :, :] @ self.offsets[b]
+                )
+                R = rotations[..., p, :, :] @ self.zero[b]
+            for d in range(self.dof_start[b], self.dof_start[b + 1]):
+                _turn(R, int(self.dof_axis[d]), self.dof_scale[d] * q[..., self.dof_coordinate[d]])
+            rotations[..., b, :, :] = R
+        return Frames(positions, rotations)
+
+
+def _turn(R: NDArray[np.float64], axis: int, angle: NDArray[np.float64]) -> None:
+    """R ← R · rot(axis, angle), in place: only the two other columns change."""
+    c, s = np.cos(angle)[..., None], np.sin(angle)[..., None]
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    u, w = R[..., :, j].copy(), R[..., :, k].copy()
+    R[..., :, j] = c * u + s * w
+    R[..., :, k] = c * w - s * u

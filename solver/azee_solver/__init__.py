@@ -1,0 +1,1 @@
+"""From constraints on a posture to a posture: ordered inverse-kinematics problems on NLopt."""

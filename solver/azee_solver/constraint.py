@@ -1,0 +1,123 @@
+"""Constraints as AZee declares them: rig-independent, frozen, each with its origin.
+
+Only declarations: this module and `geometry` import nothing but the standard library, so that a
+text can be checked without loading a solver.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import TypeAlias
+
+from azee_solver.geometry import Bone, Path, Point, Side, Site, Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where something was written: file, line and column from 1, and the rule it stands in."""
+
+    file: str
+    line: int
+    column: int
+    rule: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Constraint:
+    origin: Origin | None = field(default=None, compare=False, kw_only=True)
+
+
+class BoneAxis(Enum):
+    """Which of a bone's axes an orientation speaks of."""
+
+    DIR = "dir"
+    NRM = "nrm"
+
+
+class Relation(Enum):
+    """Parallel in the same sense, or perpendicular."""
+
+    ALONG = "along"
+    ACROSS = "across"
+
+
+@dataclass(frozen=True, slots=True)
+class Place(_Constraint):
+    """`place SITE POINT`: the site lies at the point.
+
+    `distance_m` lies along the outward normal where the point is a site, in any direction from a
+    free point. `contact` lets the surfaces touch there and exempts them from collision.
+    """
+
+    site: Site
+    point: Point
+    distance_m: float = 0.0
+    contact: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Orient(_Constraint):
+    """`orient 'dir|'nrm BONE 'along|'across VECTOR`."""
+
+    axis: BoneAxis
+    bone: Bone
+    relation: Relation
+    vector: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Look(_Constraint):
+    """`look VECTOR`: eyes first, then head, then neck."""
+
+    vector: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class LookAt(_Constraint):
+    """`lookat POINT`: eyes first, then head, then neck."""
+
+    point: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Morph(_Constraint):
+    """`morph 'name [side] w`: facial shapes and skeletal presets; negative weights are legal."""
+
+    name: str
+    side: Side | None
+    weight: float
+
+    def key(self, dominant: Side) -> str:
+        """Name in the morph table, such as `index_bend_R`."""
+        return self.name if self.side is None else f"{self.name}_{self.side.bound(dominant).value}"
+
+
+@dataclass(frozen=True, slots=True)
+class Trill(_Constraint):
+    """`trill BONE AXIS`: a small rapid oscillation of a bone about an axis, while it lasts."""
+
+    bone: Bone
+    axis: Vector
+    frequency_hz: float
+    amplitude_rad: float
+
+
+@dataclass(frozen=True, slots=True)
+class Rotate(_Constraint):
+    """`rotate BONE AXIS ANGLE`: from neutral, axis in the parent bone's frame."""
+
+    bone: Bone
+    axis: Vector
+    angle_rad: float
+
+
+@dataclass(frozen=True, slots=True)
+class Transpath(_Constraint):
+    """`transpath SITE PATH`: controlled movement between the places before and after."""
+
+    site: Site
+    path: Path
+
+
+Constraint: TypeAlias = Place | Orient | Look | LookAt | Morph | Trill | Rotate | Transpath

@@ -1,0 +1,319 @@
+"""Geometry as AZee declares it: rig-independent, symbolic, evaluated only on a posture.
+
+Vectors are directions in the signer's frame (x to the signer's left, y up, z forward), points are
+metres of a reference signer in the same frame, scaled by arm length to the body that plays.
+`dir`, `nrm`, sites and joints depend on the posture that is being solved: nothing here turns them
+into numbers. Nodes bear the names of the AZee operators that make them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, is_dataclass
+from enum import Enum
+from typing import TypeAlias
+
+
+class Side(Enum):
+    """Strong and weak stay symbolic until the signer's dominant hand is known."""
+
+    STRONG = "s"
+    WEAK = "w"
+    LEFT = "L"
+    RIGHT = "R"
+
+    @property
+    def opposite(self) -> Side:
+        """The other side of the same kind."""
+        return _OPPOSITE[self]
+
+    def bound(self, dominant: Side) -> Side:
+        """Return LEFT or RIGHT, for a signer whose dominant hand is `dominant`."""
+        if self is Side.STRONG:
+            return dominant
+        return dominant.opposite if self is Side.WEAK else self
+
+
+_OPPOSITE = {
+    Side.STRONG: Side.WEAK,
+    Side.WEAK: Side.STRONG,
+    Side.LEFT: Side.RIGHT,
+    Side.RIGHT: Side.LEFT,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Bone:
+    """`!palm s`, `!index s 2`: AZee's bone, without a rig."""
+
+    name: str
+    side: Side | None = None
+    phalanx: int | None = None
+
+    def key(self, dominant: Side) -> str:
+        """Name in the bone table, such as `index_R_2`."""
+        return _key(self.name, self.side, self.phalanx, dominant)
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """`@I_TIP s`, `@I_BACK s 2`, `@FH`: AZee's body site, without a rig."""
+
+    name: str
+    side: Side | None = None
+    phalanx: int | None = None
+
+    def key(self, dominant: Side) -> str:
+        """Name in the site table, such as `I_BACK_R_2`."""
+        return _key(self.name, self.side, self.phalanx, dominant)
+
+
+def _key(name: str, side: Side | None, phalanx: int | None, dominant: Side) -> str:
+    parts = [name]
+    if side is not None:
+        parts.append(side.bound(dominant).value)
+    if phalanx is not None:
+        parts.append(str(phalanx))
+    return "_".join(parts)
+
+
+# Vectors ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Vec:
+    """`vec x y z`, and constants such as `^up`."""
+
+    x: float
+    y: float
+    z: float
+
+
+@dataclass(frozen=True, slots=True)
+class Out:
+    """`out SIDE`: away from the middle, towards that side (`in` is its `Opp`)."""
+
+    side: Side
+
+
+@dataclass(frozen=True, slots=True)
+class Dir:
+    """`dir BONE`: from its proximal to its distal end."""
+
+    bone: Bone
+
+
+@dataclass(frozen=True, slots=True)
+class Nrm:
+    """`nrm BONE`: its normal, out of the palm for a hand."""
+
+    bone: Bone
+
+
+@dataclass(frozen=True, slots=True)
+class Opp:
+    """`oppvect V`."""
+
+    vector: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """`unit V`: of length one; degenerate for the zero vector."""
+
+    vector: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """`scale V k`."""
+
+    vector: Vector
+    factor: float
+
+
+@dataclass(frozen=True, slots=True)
+class VSum:
+    """`vsum V …`."""
+
+    vectors: tuple[Vector, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class VDiff:
+    """`vdiff A B`: A − B."""
+
+    left: Vector
+    right: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Cross:
+    """`cross A B`."""
+
+    left: Vector
+    right: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Towards:
+    """`towards P Q`: unit vector from P to Q."""
+
+    start: Point
+    end: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Rotated:
+    """`rotated V AXIS ANGLE`: right-handed about AXIS; the text gives degrees."""
+
+    vector: Vector
+    axis: Vector
+    angle_rad: float
+
+
+Vector: TypeAlias = (
+    Vec | Out | Dir | Nrm | Opp | Unit | Scale | VSum | VDiff | Cross | Towards | Rotated
+)
+
+# Points -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class FreePoint:
+    """`point x y z`: metres of the reference signer, from the middle of the shoulder line."""
+
+    x: float
+    y: float
+    z: float
+
+
+class SigningSpace(Enum):
+    """Named points around the signer, defined in the body's own units."""
+
+    MSSP = "Mssp"
+    RSSP = "Rssp"
+    LSSP = "Lssp"
+    SSSP = "Sssp"
+    WSSP = "Wssp"
+    ADDRESSEE = "addressee"
+
+
+@dataclass(frozen=True, slots=True)
+class NamedPoint:
+    """`^Mssp`, `^Rssp`, …, `^addressee`."""
+
+    place: SigningSpace
+
+
+@dataclass(frozen=True, slots=True)
+class SitePoint:
+    """A site used as a point: where it is when this is solved."""
+
+    site: Site
+
+
+@dataclass(frozen=True, slots=True)
+class JointPoint:
+    """`joint BONE`: the proximal end of a bone."""
+
+    bone: Bone
+
+
+@dataclass(frozen=True, slots=True)
+class VTranslate:
+    """`vtranslate P V`: V in metres of the reference signer."""
+
+    point: Point
+    vector: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Between:
+    """`between P Q t`; `midpoint P Q` is t = .5."""
+
+    start: Point
+    end: Point
+    fraction: float
+
+
+@dataclass(frozen=True, slots=True)
+class Moving:
+    """`moving PATH P Q`: a dynamic point, on the path from P to Q while its block lasts."""
+
+    path: Path
+    start: Point
+    end: Point
+
+
+@dataclass(frozen=True, slots=True)
+class WorldPoint:
+    """A place in the world of the body that plays, metres: what motion code has measured.
+
+    No AZee text makes one.
+    """
+
+    x: float
+    y: float
+    z: float
+
+
+Point: TypeAlias = (
+    FreePoint | NamedPoint | SitePoint | JointPoint | VTranslate | Between | Moving | WorldPoint
+)
+
+# Paths --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Straight:
+    """`straight`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """`arc V`: a circular arc that bulges by |V| along V; also `arc-vect`."""
+
+    bulge: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """`circle AXIS RADIUS turns`: radius in metres of the reference signer."""
+
+    axis: Vector
+    radius_m: float
+    turns: float
+
+
+@dataclass(frozen=True, slots=True)
+class Through:
+    """`through P …`: a centripetal Catmull–Rom curve through the points."""
+
+    points: tuple[Point, ...]
+
+
+Path: TypeAlias = Straight | Arc | Circle | Through
+
+
+# Dependencies -------------------------------------------------------------------------------
+
+
+def depends_on(expr: Vector | Point | Path) -> frozenset[Bone | Site]:
+    """Bones and sites whose posture an expression reads."""
+    found: set[Bone | Site] = set()
+    _collect(expr, found)
+    return frozenset(found)
+
+
+def _collect(node: object, found: set[Bone | Site]) -> None:
+    match node:
+        case Bone() | Site():
+            found.add(node)
+        case tuple():
+            for item in node:
+                _collect(item, found)
+        case _ if is_dataclass(node):
+            for part in fields(node):
+                _collect(getattr(node, part.name), found)
+        case _:
+            pass

@@ -10,6 +10,12 @@ import pytest
 from azee.export.files import replace_file
 
 
+def _break_off(path: Path, error: type[BaseException]) -> None:
+    with replace_file(path) as file:
+        file.write(b"half of")
+        raise error
+
+
 def test_writes_a_new_file_and_leaves_nothing_else(tmp_path: Path) -> None:
     with replace_file(tmp_path / "a.bin") as file:
         file.write(b"abc")
@@ -21,17 +27,15 @@ def test_writes_a_new_file_and_leaves_nothing_else(tmp_path: Path) -> None:
 def test_a_failure_keeps_what_was_there(tmp_path: Path) -> None:
     path = tmp_path / "a.bin"
     path.write_bytes(b"before")
-    with pytest.raises(RuntimeError), replace_file(path) as file:
-        file.write(b"half of")
-        raise RuntimeError
+    with pytest.raises(RuntimeError):
+        _break_off(path, RuntimeError)
     assert path.read_bytes() == b"before"
     assert [p.name for p in tmp_path.iterdir()] == ["a.bin"]
 
 
 def test_an_interrupt_leaves_nothing(tmp_path: Path) -> None:
-    with pytest.raises(KeyboardInterrupt), replace_file(tmp_path / "a.bin") as file:
-        file.write(b"half of")
-        raise KeyboardInterrupt
+    with pytest.raises(KeyboardInterrupt):
+        _break_off(tmp_path / "a.bin", KeyboardInterrupt)
     assert list(tmp_path.iterdir()) == []
 
 

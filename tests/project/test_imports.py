@@ -1,0 +1,92 @@
+"""Who may import whom, read from the sources; CONTRIBUTING.md shows the same as a picture."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SOURCES = {
+    path.relative_to(ROOT / folder): path
+    for folder in (".", "grammar", "rig", "solver")
+    for path in sorted((ROOT / folder).glob("azee*/**/*.py"))
+}
+MODULES = {
+    ".".join(relative.with_suffix("").parts).removesuffix(".__init__"): path
+    for relative, path in SOURCES.items()
+}
+OURS = {"azee", "azee_grammar", "azee_rig", "azee_solver"}
+DECLARATIONS = {"azee_solver.geometry", "azee_solver.constraint"}
+
+MAY_IMPORT: dict[str, set[str]] = {
+    "azee_grammar": {"lark"},
+    "azee_rig": {"numpy"},
+    "azee_rig.build": {"azee_rig", "numpy", "trimesh"},
+    "azee_solver.geometry": set(),
+    "azee_solver.constraint": {"azee_solver.geometry"},
+    "azee_solver": {"azee_rig", "numpy", "numba", "nlopt"},
+    "azee.score": DECLARATIONS,
+    "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
+    "azee.motion": {"azee.score", "azee_solver", "azee_rig", "numpy", "scipy"},
+    "azee.export": {"azee.score", "azee.motion", "azee_rig", "numpy", "PIL", "numba"},
+    "azee.cli": {*OURS, "click", "rich"},
+    "azee": OURS,
+}
+"""By the longest prefix of the importing module. A package may always import from itself."""
+
+
+def _imports(path: Path) -> Iterator[tuple[str, int]]:
+    """Yield every module that a file imports, at the top or inside a function, with its line."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield alias.name, node.lineno
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}:{node.lineno}: relative import"
+            assert node.module is not None
+            yield from ((node.module, node.lineno),)
+
+
+def _within(module: str, package: str) -> bool:
+    return module == package or module.startswith(package + ".")
+
+
+def _rule(module: str) -> str:
+    return max((p for p in MAY_IMPORT if _within(module, p)), key=len)
+
+
+@pytest.mark.parametrize("module", sorted(MODULES))
+def test_imports_follow_the_graph(module: str) -> None:
+    rule = _rule(module)
+    allowed = MAY_IMPORT[rule] | {rule}
+    for imported, line in _imports(MODULES[module]):
+        top = imported.partition(".")[0]
+        if top in sys.stdlib_module_names:
+            continue
+        assert any(_within(imported, name) for name in allowed), (
+            f"{MODULES[module].relative_to(ROOT)}:{line}: {rule} must not import {imported}"
+        )
+
+
+def test_the_graph_names_packages_that_exist() -> None:
+    assert len(MODULES) > 20
+    packages = [p for p in MAY_IMPORT if not any(_within(m, p) for m in MODULES)]
+    assert packages == []
+
+
+def test_nlopt_is_imported_in_one_file() -> None:
+    users = [
+        module
+        for module, path in MODULES.items()
+        if any(_within(name, "nlopt") for name, _ in _imports(path))
+    ]
+    assert len(users) == 1
+
+
+@pytest.mark.parametrize("module", sorted(MODULES))
+def test_every_module_says_what_it_is_for(module: str) -> None:
+    assert ast.get_docstring(ast.parse(MODULES[module].read_text(encoding="utf-8")))

@@ -1,0 +1,34 @@
+"""The wheel holds the four packages and their data, and nothing generic."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.slow
+def test_the_wheel_holds_four_packages_with_their_data(tmp_path: Path) -> None:
+    subprocess.run(
+        [sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", tmp_path, ROOT],
+        check=True,
+        capture_output=True,
+    )
+    (wheel,) = tmp_path.glob("*.whl")
+    names = zipfile.ZipFile(wheel).namelist()
+    tops = {name.split("/")[0] for name in names if ".dist-info/" not in name}
+    assert tops == {"azee", "azee_grammar", "azee_rig", "azee_solver"}
+    for name in (
+        "azee/py.typed",
+        "azee_grammar/data/azee.lark",
+        "azee_grammar/rules/core/not-but.azee",
+    ):
+        assert name in names
+    assert any(n.startswith("azee_rig/data/") and n.endswith(".npz") for n in names)
+    assert any(n.endswith("licenses/LICENSE") for n in names)
+    assert any(n.endswith("licenses/NOTICE") for n in names)

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Builds the wheel, installs it alone into a new environment outside the checkout, and runs the
+# fast tests against it there. Usage: wheel.sh PYTHON
+set -euo pipefail
+python=$PWD/$1
+root=$PWD
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+
+"$python" -m build --wheel --no-isolation --outdir "$place" "$root" >/dev/null
+"$python" -m venv "$place/env"
+bin=$place/env/bin
+[ -d "$bin" ] || bin=$place/env/Scripts
+wheel=$(ls "$place"/*.whl)
+"$bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt "$wheel[dev]"
+
+# What the tests read besides the packages; node_modules is lent, not copied.
+mkdir "$place/checkout"
+cp -r pyproject.toml docs examples "$place/checkout"
+tar --exclude=node_modules -cf - tests | tar -xf - -C "$place/checkout"
+if [ -d tests/node/node_modules ]; then
+  ln -s "$root/tests/node/node_modules" "$place/checkout/tests/node/node_modules"
+fi
+
+cd "$place/checkout"
+"$bin/python" -c "import azee, sys; sys.exit('site-packages' not in azee.__file__)"
+"$bin/python" -m pytest -q -m "not slow" -o pythonpath= --ignore tests/project

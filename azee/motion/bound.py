@@ -1,0 +1,137 @@
+"""A time line bound to a rig: which part of the body every requirement speaks of and reads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from azee.motion.flatten import Timeline
+from azee.motion.limbs import Limbs, channel_of_constraint
+from azee.motion.requirement import Requirement
+from azee.motion.spline import minimum_jerk
+from azee_rig.rig import Rig
+from azee_solver.anatomy import anatomy
+from azee_solver.binding import Binding
+from azee_solver.constraint import Constraint, LookAt, Morph, Place, Rotate, Transpath, Trill
+from azee_solver.demand import Demand
+from azee_solver.footprint import footprint
+from azee_solver.geometry import Between, Moving, Point, VTranslate, WorldPoint
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bound:
+    """A requirement on one rig.
+
+    moves: coordinates that its residual depends on through the bone or site it speaks of.
+    reads: coordinates of the bones and sites that it reads. limbs, read_limbs: their limbs.
+    dynamic: its target moves while it lasts.
+    """
+
+    requirement: Requirement
+    moves: frozenset[int]
+    reads: frozenset[int]
+    limbs: frozenset[str]
+    read_limbs: frozenset[str]
+    dynamic: bool
+
+    @property
+    def constraint(self) -> Constraint:
+        """What is required."""
+        return self.requirement.constraint
+
+    def demand(self, time: Fraction) -> Demand:
+        """Return what it asks of a posture at an instant."""
+        r = self.requirement
+        phase = self.phase(time) if self.dynamic else 0.0
+        return Demand(r.constraint, r.path, r.interval.start, r.rank, phase)
+
+    def phase(self, time: Fraction) -> float:
+        """How far a dynamic point has got, 0 to 1: minimum jerk over its own block."""
+        motion = self.requirement.motion
+        if motion.duration == 0:
+            return 1.0
+        return float(minimum_jerk(float((time - motion.start) / motion.duration)))
+
+
+@dataclass(frozen=True, eq=False)
+class BoundScore:
+    """All that a score requires of one body, by who serves it.
+
+    postures: what the solver meets. paths: transpaths. trills, faces: laid on the curves.
+    """
+
+    timeline: Timeline
+    postures: tuple[Bound, ...]
+    paths: tuple[Bound, ...]
+    trills: tuple[Bound, ...]
+    faces: tuple[Bound, ...]
+
+    @cached_property
+    def all(self) -> tuple[Bound, ...]:
+        """Everything, in the order of the score."""
+        every = (*self.postures, *self.paths, *self.trills, *self.faces)
+        return tuple(sorted(every, key=lambda b: b.requirement.rank))
+
+
+def bind(timeline: Timeline, rig: Rig, binding: Binding, limbs: Limbs) -> BoundScore:
+    """Bind every requirement; of a hold's, keep those in its channels.
+
+    Raises: BindingError: the rig lacks a bone, a site or a morph.
+    """
+    kinds: dict[type, list[Bound]] = {Transpath: [], Trill: [], Morph: [], object: []}
+    for requirement in timeline.requirements:
+        constraint = requirement.constraint
+        binding.check(constraint)
+        channels = requirement.held_channels
+        if channels is not None and channel_of_constraint(constraint, binding) not in channels:
+            continue
+        bound = _bind(requirement, rig, binding, limbs)
+        facial = isinstance(constraint, Morph) and not binding.is_skeletal(constraint)
+        served = isinstance(constraint, Transpath | Trill) or facial
+        kinds[type(constraint) if served else object].append(bound)
+    return BoundScore(
+        timeline,
+        postures=tuple(kinds[object]),
+        paths=tuple(kinds[Transpath]),
+        trills=tuple(kinds[Trill]),
+        faces=tuple(kinds[Morph]),
+    )
+
+
+def _bind(requirement: Requirement, rig: Rig, binding: Binding, limbs: Limbs) -> Bound:
+    constraint = requirement.constraint
+    body = anatomy(rig.chain, rig.coordinates)
+    moves, affected = frozenset[int](), frozenset[int]()
+    if not isinstance(constraint, Morph):
+        print_ = footprint(_alike(constraint), binding)
+        moves, affected = print_.movers(body), print_.affected(body)
+    elif binding.is_skeletal(constraint):
+        moves = affected = frozenset(binding.preset(constraint))
+    reads = affected - moves
+    dynamic = isinstance(constraint, Place | LookAt) and has_moving(constraint.point)
+    return Bound(requirement, moves, reads, limbs.touching(moves), limbs.touching(reads), dynamic)
+
+
+def _alike(constraint: Constraint) -> Constraint:
+    """Return a constraint that a posture can meet and that reads the same of the body."""
+    match constraint:
+        case Transpath(site=site, path=path):
+            return Place(site, Moving(path, WorldPoint(0, 0, 0), WorldPoint(0, 0, 0)))
+        case Trill(bone=bone, axis=axis):
+            return Rotate(bone, axis, 0.0)
+        case _:
+            return constraint
+
+
+def has_moving(point: Point) -> bool:
+    """Whether a point moves on a path of its own."""
+    match point:
+        case Moving():
+            return True
+        case VTranslate(point=inner):
+            return has_moving(inner)
+        case Between(start=start, end=end):
+            return has_moving(start) or has_moving(end)
+        case _:
+            return False

@@ -1,0 +1,127 @@
+"""Curves of joint coordinates through key postures, limb by limb.
+
+Curves run on coordinates, never on quaternions: every convex blend of two postures stays inside
+the limits and on the joints' own manifold. Between two key postures a limb moves by minimum jerk.
+Where keys lie on a movement (samples of a path, keys added to hold a constraint) it passes through
+them without stopping: a C² spline over the movement's own progress, minimum jerk in time, so that
+the whole is C² and at rest at both ends. What a spline overshoots is clamped to the limits.
+
+A limb that nothing needs for a while goes on to where it is next needed, or to rest and back.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.spline import cubic_spline, minimum_jerk
+
+Array = NDArray[np.float64]
+
+GO_ON_S = 0.6
+"""A limb that is needed again within this time goes on without rest."""
+
+SHORTEST_S, LONGEST_S = 0.15, 0.5
+"""Lengths of movements from and to rest."""
+
+LONG_WAY_RAD = math.radians(80.0)
+"""Largest change of a coordinate in a movement that takes the longest time."""
+
+
+def transition_s(a: Array, b: Array) -> float:
+    """Length of the movement between a posture and rest, by the coordinate that turns most."""
+    way = float(np.max(np.abs(a - b), initial=0.0)) / LONG_WAY_RAD
+    return SHORTEST_S + (LONGEST_S - SHORTEST_S) * min(1.0, way)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LimbKey:
+    """A limb's posture at a time.
+
+    time_s: on the score's time line. values: the limb's coordinates, radians. passing: on the way,
+    without stopping. held: something needs the limb from here until its next key.
+    """
+
+    time_s: float
+    values: Array
+    passing: bool = False
+    held: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LimbTrack:
+    """All keys of one limb, rests included, in order of time; at rest before and after."""
+
+    keys: tuple[LimbKey, ...]
+    rest: Array
+
+    @property
+    def start_s(self) -> float:
+        """When it leaves its rest for the first time; 0 if it never does."""
+        return self.keys[0].time_s if self.keys else 0.0
+
+    @property
+    def end_s(self) -> float:
+        """When it has come back to rest for good; 0 if it never left."""
+        return self.keys[-1].time_s if self.keys else 0.0
+
+    def sample(self, times_s: Array) -> Array:
+        """Return the limb's coordinates at times, (T, n); limits are the caller's."""
+        out = np.broadcast_to(self.rest, (len(times_s), len(self.rest))).copy()
+        stops = [i for i, key in enumerate(self.keys) if not key.passing]
+        for first, last in pairwise(stops):
+            _run(self.keys[first : last + 1], times_s, out)
+        return out
+
+
+def track(keys: Sequence[LimbKey], rest: Array) -> LimbTrack:
+    """Complete a limb's keys with the way from rest, the way back, and rests between."""
+    if not keys:
+        return LimbTrack((), rest)
+    first, last = keys[0], keys[-1]
+    whole = [LimbKey(first.time_s - transition_s(first.values, rest), rest)]
+    for key, following in pairwise(keys):
+        whole.append(key)
+        gap = following.time_s - key.time_s
+        back, forth = transition_s(key.values, rest), transition_s(following.values, rest)
+        if not key.held and gap > GO_ON_S and gap >= back + forth:
+            whole.append(LimbKey(key.time_s + back, rest))
+            whole.append(LimbKey(following.time_s - forth, rest))
+    whole.append(last)
+    whole.append(LimbKey(last.time_s + transition_s(last.values, rest), rest))
+    return LimbTrack(tuple(_stopping_before_rests(whole)), rest)
+
+
+def _stopping_before_rests(keys: list[LimbKey]) -> list[LimbKey]:
+    """Let movements end at a key beside the first or last rest."""
+    out = []
+    for i, key in enumerate(keys):
+        alone = i in (0, 1, len(keys) - 2, len(keys) - 1)
+        out.append(LimbKey(key.time_s, key.values, key.passing and not alone, key.held))
+    return out
+
+
+def _run(keys: Sequence[LimbKey], times_s: Array, out: Array) -> None:
+    """Fill in the frames from one stop to the next."""
+    start, end = keys[0].time_s, keys[-1].time_s
+    inside = np.flatnonzero((times_s >= start) & (times_s <= end))
+    if not len(inside):
+        return
+    if end <= start:
+        out[inside] = keys[-1].values
+        return
+    span = end - start
+    progress = minimum_jerk((times_s[inside] - start) / span)
+    values = np.stack([key.values for key in keys])
+    if np.all(values == values[0]):
+        out[inside] = values[0]
+        return
+    knots = minimum_jerk((np.array([key.time_s for key in keys]) - start) / span)
+    keep = np.r_[True, np.diff(knots[:-1]) > 1e-12, True]
+    keep[1:-1] &= knots[-1] - knots[1:-1] > 1e-12
+    out[inside] = cubic_spline(knots[keep], values[keep], progress)

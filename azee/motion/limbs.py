@@ -1,0 +1,105 @@
+"""Limbs: the parts of a body whose coordinates are keyed together.
+
+A keyframe keys the limbs that something constrains there and leaves the others to their own
+times, so that a head shake does not freeze an arm in mid-air.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.coordinates import Coordinates
+from azee_solver.binding import Binding
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
+from azee_solver.geometry import Bone, Site
+
+_FINGER = re.compile(r"(?:thumb|index|middle|ring|little)_([LR])(?:_\d)?")
+_ARM = re.compile(r"(?:clav|arm|f_arm|palm)_([LR])")
+
+
+def limb_of_bone(bone: str) -> str:
+    """Limb that a bone of the body belongs to, such as `arm_L`, by the bone's key."""
+    if found := _FINGER.fullmatch(bone):
+        return f"fingers_{found[1]}"
+    if found := _ARM.fullmatch(bone):
+        return f"arm_{found[1]}"
+    if bone.startswith("eye_"):
+        return "eyes"
+    if bone in ("neck", "head"):
+        return "head"
+    return "trunk" if bone.startswith("back_") else bone
+
+
+def limb_of_coordinate(coordinate: str) -> str:
+    """Limb of a coordinate, by its name: `f_arm_R.pronation` is of `arm_R`."""
+    return limb_of_bone(coordinate.partition(".")[0])
+
+
+def channel_of_limb(limb: str) -> str:
+    """Channel of `azee.score.score.CHANNELS` that a limb belongs to."""
+    return limb if limb in ("head", "trunk", "eyes") else "hands"
+
+
+@dataclass(frozen=True, eq=False)
+class Limbs:
+    """The limbs of one rig: names (L,) and the limb of every coordinate, (V,) indices."""
+
+    names: tuple[str, ...]
+    of_coordinate: NDArray[np.int64]
+
+    @staticmethod
+    def of(coordinates: Coordinates) -> Limbs:
+        """Group a rig's coordinates; limbs stand in the order of their first coordinate."""
+        each = [limb_of_coordinate(name) for name in coordinates.names]
+        names = tuple(dict.fromkeys(each))
+        return Limbs(names, np.array([names.index(limb) for limb in each], dtype=np.int64))
+
+    @cached_property
+    def members(self) -> dict[str, NDArray[np.int64]]:
+        """Indices of each limb's coordinates."""
+        return {n: np.flatnonzero(self.of_coordinate == i) for i, n in enumerate(self.names)}
+
+    def touching(self, coordinates: Iterable[int]) -> frozenset[str]:
+        """Limbs that own any of the coordinates."""
+        return frozenset(self.names[self.of_coordinate[v]] for v in coordinates)
+
+
+def limb_of_constraint(constraint: Constraint, binding: Binding) -> str:
+    """Limb that a constraint speaks of; `face` for a facial morph.
+
+    A placed site counts as its bone's, gaze as the eyes'. Raises: BindingError.
+    """
+    match constraint:
+        case Place(site=Site() as site) | Transpath(site=Site() as site):
+            return limb_of_bone(binding.site(site).bone)
+        case Orient(bone=Bone() as bone) | Rotate(bone=Bone() as bone) | Trill(bone=Bone() as bone):
+            return limb_of_bone(bone.key(binding.dominant))
+        case Look() | LookAt():
+            return "eyes"
+        case Morph():
+            if not binding.is_skeletal(constraint):
+                return "face"
+            angles = binding.rig.skeletal_morphs[constraint.key(binding.dominant)]
+            return limb_of_coordinate(next(iter(angles)))
+
+
+def channel_of_constraint(constraint: Constraint, binding: Binding) -> str:
+    """Channel that a hold must name to keep a constraint."""
+    limb = limb_of_constraint(constraint, binding)
+    return limb if limb == "face" else channel_of_limb(limb)

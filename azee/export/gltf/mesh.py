@@ -1,0 +1,138 @@
+"""The body's surface as one glTF mesh: a primitive per material, skinned, with morph targets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.export.gltf.document import Document, Target
+from azee.export.gltf.morphs import MorphTarget, morph_targets
+from azee_rig.mesh import BodyMesh, Part
+
+FULL = 65535
+"""1 as a normalised unsigned 16-bit integer."""
+INFLUENCES = 4
+"""Joints in one pair of JOINTS_n and WEIGHTS_n."""
+
+
+def add_mesh(document: Document, mesh: BodyMesh, name: str) -> int:
+    """Add the mesh in its own posture; returns its index.
+
+    Every primitive has all morph targets, as glTF asks; what a target leaves alone costs nothing.
+    The names of the targets stand in the mesh's extras, where viewers look for them.
+    """
+    targets = list(morph_targets(mesh))
+    primitives = [_primitive(document, mesh, part, targets) for part in mesh.parts]
+    return document.add(
+        "meshes",
+        name=name,
+        primitives=primitives,
+        weights=[0.0] * len(targets) if targets else None,
+        extras={"targetNames": list(mesh.units)} if targets else None,
+    )
+
+
+def _primitive(
+    document: Document, mesh: BodyMesh, part: Part, targets: list[MorphTarget]
+) -> dict[str, Any]:
+    used, inverse = np.unique(mesh.triangles[part.start : part.stop], return_inverse=True)
+    count = len(used)
+    attributes = {
+        "POSITION": _vertices(document, mesh.vertices[used].astype(np.float32), bounds=True),
+        "NORMAL": _vertices(document, _unit32(mesh.normals[used])),
+        "COLOR_0": _vertices(document, _colours(mesh.colours[used]), normalized=True),
+        **_influences(document, mesh.joints[used], mesh.weights[used]),
+    }
+    primitive: dict[str, Any] = {
+        "attributes": attributes,
+        "indices": document.accessor(
+            inverse.ravel().astype(np.uint16 if count < FULL else np.uint32), target=Target.INDICES
+        ),
+        "material": document.add(
+            "materials",
+            name=part.name,
+            pbrMetallicRoughness={
+                "baseColorFactor": list(part.colour),
+                "metallicFactor": 0.0,
+                "roughnessFactor": part.roughness,
+            },
+        ),
+    }
+    if targets:
+        place = np.full(len(mesh.vertices), -1, np.intp)
+        place[used] = np.arange(count)
+        primitive["targets"] = _targets(document, targets, place, count)
+    return primitive
+
+
+def _vertices(
+    document: Document, array: NDArray[Any], bounds: bool = False, normalized: bool = False
+) -> int:
+    return document.accessor(array, target=Target.VERTICES, bounds=bounds, normalized=normalized)
+
+
+def _unit32(normals: NDArray[np.float64]) -> NDArray[np.float32]:
+    """Let a vertex without a normal look forward: glTF wants every one of length 1."""
+    bare = np.linalg.norm(normals, axis=1, keepdims=True) < 0.5
+    return np.where(bare, (0, 0, 1), normals).astype(np.float32)
+
+
+def _colours(colours: NDArray[np.float64]) -> NDArray[np.uint16]:
+    """Linear RGB as opaque RGBA; 16 bits, for 8 are too coarse in the dark when linear."""
+    opaque = np.hstack([colours, np.ones((len(colours), 1))])
+    return np.round(opaque * FULL).astype(np.uint16)
+
+
+def _influences(
+    document: Document, joints: NDArray[np.int64], weights: NDArray[np.float64]
+) -> dict[str, int]:
+    """Joints and weights in sets of four; a further set only where a vertex needs it.
+
+    Weights are rounded to parts of 65535 and the rest given to the heaviest, so that they sum to
+    1 exactly. An influence without weight names joint 0, as glTF asks.
+    """
+    parts = np.round(weights * FULL).astype(np.int64)
+    parts[:, 0] += FULL - parts.sum(axis=1)
+    sets = max(1, -(-int((parts > 0).sum(axis=1).max()) // INFLUENCES))
+    order = np.argsort(-parts, axis=1, kind="stable")
+    padding = ((0, 0), (0, max(0, sets * INFLUENCES - parts.shape[1])))
+    parts = np.pad(np.take_along_axis(parts, order, axis=1), padding)
+    joints = np.where(parts > 0, np.pad(np.take_along_axis(joints, order, axis=1), padding), 0)
+    attributes = {}
+    for i in range(sets):
+        columns = slice(i * INFLUENCES, (i + 1) * INFLUENCES)
+        kind = np.uint8 if joints.max() < 256 else np.uint16
+        attributes[f"JOINTS_{i}"] = _vertices(document, joints[:, columns].astype(kind))
+        attributes[f"WEIGHTS_{i}"] = _vertices(
+            document, parts[:, columns].astype(np.uint16), normalized=True
+        )
+    return attributes
+
+
+def _targets(
+    document: Document, targets: list[MorphTarget], place: NDArray[np.intp], count: int
+) -> list[dict[str, int]]:
+    """Morph targets of a primitive, sparse; `place` is each vertex' row in it, or −1."""
+    nothing: list[int] = []
+
+    def sparse(rows: NDArray[np.intp], values: NDArray[np.float64], bounds: bool) -> int:
+        inside = place[rows] >= 0
+        if inside.any():
+            at = place[rows[inside]]
+            return document.sparse_accessor(
+                count, at, values[inside].astype(np.float32), bounds=bounds
+            )
+        if not nothing:
+            zeros = np.zeros((0, 3), np.float32)
+            nothing.append(document.sparse_accessor(count, rows[:0], zeros, bounds=True))
+        return nothing[0]
+
+    return [
+        {
+            "POSITION": sparse(target.moved, target.moves, True),
+            "NORMAL": sparse(target.turned, target.turns, False),
+        }
+        for target in targets
+    ]

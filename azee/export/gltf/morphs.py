@@ -1,0 +1,75 @@
+"""Face units as morph targets: where each moves the surface, and how it turns the normals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.mesh import BodyMesh
+
+Floats = NDArray[np.float64]
+Rows = NDArray[np.intp]
+
+LEAST_MOVE_M = 1e-6
+LEAST_TURN = 2e-3
+"""Changes of position (metres) and normal (of length 1) that are left out as invisible."""
+
+
+@dataclass(frozen=True, eq=False)
+class MorphTarget:
+    """What one face unit adds at weight 1.
+
+    moves: (n, 3) metres, to the vertices `moved` (n,), increasing. turns: (m, 3), to the unit
+    normals of the vertices `turned` (m,).
+    """
+
+    moved: Rows
+    moves: Floats
+    turned: Rows
+    turns: Floats
+
+
+def morph_targets(mesh: BodyMesh) -> Iterator[MorphTarget]:
+    """Yield a target for every face unit of a mesh, in its order.
+
+    A normal is the mean of the normals around it, weighted by area, as in `vertex_normals`; only
+    triangles that the unit moves are computed again.
+    """
+    T = mesh.triangles
+    faces = _cross(mesh.vertices, T)
+    sums = np.zeros_like(mesh.vertices)
+    for corner in range(3):
+        np.add.at(sums, T[:, corner], faces)
+    normals = _unit(sums)
+    for name in mesh.units:
+        rows, deltas = mesh.unit(name)
+        vertices = mesh.vertices.copy()
+        vertices[rows] += deltas
+        moved = np.zeros(len(vertices), bool)
+        moved[rows] = True
+        touched = np.flatnonzero(moved[T].any(axis=1))
+        change = _cross(vertices, T[touched]) - faces[touched]
+        around, place = np.unique(T[touched], return_inverse=True)
+        place = place.reshape(-1, 3)
+        total = sums[around]
+        for corner in range(3):
+            np.add.at(total, place[:, corner], change)
+        turns = _unit(total) - normals[around]
+        order = np.argsort(rows)
+        far = np.abs(deltas[order]).max(axis=1) > LEAST_MOVE_M
+        seen = np.abs(turns).max(axis=1) > LEAST_TURN
+        yield MorphTarget(rows[order][far], deltas[order][far], around[seen], turns[seen])
+
+
+def _cross(vertices: Floats, triangles: NDArray[np.int64]) -> Floats:
+    """Return normals of triangles, as long as twice their areas."""
+    a, b, c = (vertices[triangles[:, i]] for i in range(3))
+    return np.cross(b - a, c - a)
+
+
+def _unit(vectors: Floats) -> Floats:
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(vectors / np.where(length > 0, length, 1))

@@ -1,0 +1,81 @@
+"""How the joints of a body follow the chain: whole nodes, shared twist, halved bends.
+
+A joint takes the rotation of one node, counted from the posture that the mesh was modelled in, so
+that the mesh is itself exactly there. Two refinements keep skin from collapsing without leaving
+what BVH and glTF can play:
+
+- twist: a joint of a limb leaves out a part of the turn about the limb's axis, so that pronation
+  spreads along the forearm instead of wringing one joint;
+- half: a helper joint turns by half of what its neighbour bends, and carries the skin in between.
+
+Joints stay where the chain puts them: twisted joints lie on their limb's axis, helpers at their
+neighbour's origin.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.chain import DIR, Chain
+from azee_rig.rotation import about_axis, half_turn, to_quaternions
+from azee_rig.skeleton import Pose, Skeleton, frozen
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """Who drives each of the J joints.
+
+    node: (J,) node whose rotation the joint takes; −1 for a joint that stays at rest.
+    twist_coordinate: (J,) coordinate of the turn that is partly left out; −1 where none is.
+    twist_left_out: (J,) signed share of it that is left out.
+    half_of: (J,) joint whose bend a helper halves, both having the same parent; −1 for others.
+    bind: (B, 3, 3) frames of the nodes in the mesh's own posture.
+    """
+
+    node: NDArray[np.int64]
+    twist_coordinate: NDArray[np.int64]
+    twist_left_out: Floats
+    half_of: NDArray[np.int64]
+    bind: Floats
+
+    def __post_init__(self) -> None:
+        for name in ("node", "twist_coordinate", "half_of"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.int64))
+        for name in ("twist_left_out", "bind"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.float64))
+
+    def pose(self, q: Floats, bind_q: Floats, chain: Chain, skeleton: Skeleton) -> Pose:
+        """Local rotations of the body's joints for coordinates q (…, V), radians."""
+        q = np.asarray(q, dtype=np.float64)
+        batch = q.shape[:-1]
+        nodes = chain.frames(q).rotations
+        world = np.empty((*batch, len(self.node), 3, 3))
+        local = np.empty_like(world)
+        for j, n in enumerate(self.node):
+            p = skeleton.parents[j]
+            if self.half_of[j] >= 0:
+                continue
+            if n < 0:
+                world[..., j, :, :] = np.eye(3) if p < 0 else world[..., p, :, :]
+            else:
+                R = nodes[..., n, :, :]
+                c = self.twist_coordinate[j]
+                if c >= 0:
+                    R = R @ about_axis(DIR, -self.twist_left_out[j] * (q[..., c] - bind_q[c]))
+                world[..., j, :, :] = R @ self.bind[n].T
+            local[..., j, :, :] = (
+                world[..., j, :, :]
+                if p < 0
+                else np.swapaxes(world[..., p, :, :], -1, -2) @ world[..., j, :, :]
+            )
+        rotations = to_quaternions(local[..., self.half_of < 0, :, :])
+        out = np.empty((*batch, len(self.node), 4))
+        out[..., self.half_of < 0, :] = rotations
+        for j in np.flatnonzero(self.half_of >= 0):
+            out[..., j, :] = half_turn(out[..., self.half_of[j], :])
+        return Pose(np.zeros((*batch, 3)), out)

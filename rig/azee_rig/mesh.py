@@ -1,0 +1,121 @@
+"""The surface of a body: triangles in parts, colours, skin weights and face shapes."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.skeleton import frozen
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A run of triangles [start, stop) with one material.
+
+    colour: linear RGBA, multiplied by the vertex colours. roughness: 0 mirror … 1 matt.
+    """
+
+    name: str
+    start: int
+    stop: int
+    colour: tuple[float, float, float, float]
+    roughness: float
+
+
+@dataclass(frozen=True, eq=False)
+class BodyMesh:
+    """A closed set of arrays that a renderer or an exporter can take as they are.
+
+    vertices: (N, 3) metres, in the mesh's own posture. triangles: (F, 3), counter-clockwise seen
+    from outside. parts: materials, in order of their triangles. colours: (N, 3) linear.
+    joints, weights: (N, K) influences, heaviest first, rows sum to 1; unused ones have weight 0.
+    units: U names. unit_start: (U + 1,) unit u moves vertices unit_rows[s:t] by unit_deltas[s:t]
+    with s, t = unit_start[u], unit_start[u + 1]; deltas (·, 3) in metres.
+    """
+
+    vertices: Floats
+    triangles: Ints
+    parts: tuple[Part, ...]
+    colours: Floats
+    joints: Ints
+    weights: Floats
+    units: tuple[str, ...]
+    unit_start: Ints
+    unit_rows: Ints
+    unit_deltas: Floats
+    joint_count: int
+
+    def __post_init__(self) -> None:
+        for name in ("triangles", "joints", "unit_start", "unit_rows"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.int64))
+        for name in ("vertices", "colours", "weights", "unit_deltas"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.float64))
+
+    @cached_property
+    def normals(self) -> Floats:
+        """Unit vertex normals (N, 3) in the mesh's own posture."""
+        return vertex_normals(self.vertices, self.triangles)
+
+    @cached_property
+    def dense_weights(self) -> Floats:
+        """Skin weights as a matrix (N, J): one product poses the whole mesh."""
+        matrix = np.zeros((len(self.vertices), self.joint_count))
+        np.add.at(matrix, (np.arange(len(self.vertices))[:, None], self.joints), self.weights)
+        return matrix
+
+    def unit(self, name: str) -> tuple[Ints, Floats]:
+        """Vertices that a face unit moves, and by how much at weight 1: (n,), (n, 3)."""
+        u = self.units.index(name)
+        run = slice(self.unit_start[u], self.unit_start[u + 1])
+        return self.unit_rows[run], self.unit_deltas[run]
+
+    def shaped(self, unit_weights: Floats) -> Floats:
+        """Vertices with face units added: v' = v + Σ_u α_u Δv_u."""
+        vertices = np.array(self.vertices)
+        for u in np.flatnonzero(unit_weights):
+            run = slice(self.unit_start[u], self.unit_start[u + 1])
+            vertices[self.unit_rows[run]] += unit_weights[u] * self.unit_deltas[run]
+        return vertices
+
+
+def vertex_normals(vertices: Floats, triangles: Ints) -> Floats:
+    """Return unit normals (N, 3), each the mean of its triangles' normals by area."""
+    a, b, c = (vertices[triangles[:, i]] for i in range(3))
+    face = np.cross(b - a, c - a)
+    corners = triangles.T.ravel()
+    sums = np.stack(
+        [np.bincount(corners, np.tile(face[:, k], 3), len(vertices)) for k in range(3)], axis=1
+    )
+    length = np.linalg.norm(sums, axis=1, keepdims=True)
+    return np.asarray(sums / np.where(length > 0.0, length, 1.0))
+
+
+def read_mesh(path: Path) -> BodyMesh:
+    """Read a packed mesh. Weights are stored as parts of 65535, deltas in units of 1e-5 m."""
+    with np.load(path) as packed:
+        described = json.loads(packed["described"].tobytes())
+        weights = packed["weights"].astype(np.float64)
+        return BodyMesh(
+            vertices=packed["vertices"],
+            triangles=packed["triangles"],
+            parts=tuple(
+                Part(p["name"], p["start"], p["stop"], tuple(p["colour"]), p["roughness"])
+                for p in described["parts"]
+            ),
+            colours=packed["colours"] / 255.0,
+            joints=packed["joints"],
+            weights=weights / weights.sum(axis=1, keepdims=True),
+            units=tuple(described["units"]),
+            unit_start=packed["unit_start"],
+            unit_rows=packed["unit_rows"],
+            unit_deltas=packed["unit_deltas"] * described["delta_m"],
+            joint_count=described["joint_count"],
+        )

@@ -1,0 +1,139 @@
+"""A rig: a body that can be posed by coordinates and dressed in skin."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.chain import Chain
+from azee_rig.coordinates import Coordinates
+from azee_rig.drive import Drive
+from azee_rig.mesh import BodyMesh, read_mesh
+from azee_rig.skeleton import Pose, Skeleton, frozen
+from azee_rig.skin import joint_frames, skin
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class BoneNodes:
+    """Where an AZee bone lives in the chain.
+
+    node: its frame carries the bone's dir and nrm. origin_node: its origin is the proximal joint.
+    They differ where one bone is spread over several nodes (back_1, back_2, neck).
+    """
+
+    node: int
+    origin_node: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RigSite:
+    """A named point of the surface. position and unit normal (3,) in the node's frame, metres."""
+
+    name: str
+    bone: str
+    node: int
+    position: Floats
+    normal: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Capsules:
+    """The body as K capsules, for collision.
+
+    node: (K,). a, b: (K, 3) ends of the axis in the node's frame. radius: (K,). All in metres.
+    pairs: (P, 2) capsules that must not overlap: arms and hands against trunk, head and each
+    other. finger_pairs: (Q, 2) the same with the fingers, a group of its own.
+    """
+
+    names: tuple[str, ...]
+    node: NDArray[np.int64]
+    a: Floats
+    b: Floats
+    radius: Floats
+    pairs: NDArray[np.int64]
+    finger_pairs: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        for name in ("node", "pairs", "finger_pairs"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.int64))
+        for name in ("a", "b", "radius"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.float64))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Landmarks:
+    """Measures of the body, metres.
+
+    shoulder_middle: (3,) middle of the shoulder line in the world, at idle. arm_m: upper arm and
+    forearm, shoulder to wrist. reference_arm_m: the same of the reference signer, whose metres
+    AZee's free points and vectors count; arm_m / reference_arm_m scales them to this body.
+    """
+
+    shoulder_middle: Floats
+    upper_arm_m: float
+    forearm_m: float
+    arm_m: float
+    reference_arm_m: float
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """A body, with the maps from AZee's names to it.
+
+    bones: all 44 AZee bones. sites: AZee's body sites. signing_space: world points (3,) Mssp,
+    Rssp, Lssp and addressee. skeletal_morphs: radians that a morph of weight 1 adds to each
+    coordinate. face_morphs: weights that a morph of weight 1 adds to each face unit.
+    unexpressed_morphs: AZee morphs that this face cannot show, with the reason.
+    units: names of the face units. folder: where the mesh lies; it is read when first asked for.
+    """
+
+    name: str
+    skeleton: Skeleton
+    coordinates: Coordinates
+    chain: Chain
+    drive: Drive
+    bones: Mapping[str, BoneNodes]
+    sites: Mapping[str, RigSite]
+    capsules: Capsules
+    landmarks: Landmarks
+    signing_space: Mapping[str, Floats]
+    skeletal_morphs: Mapping[str, Mapping[str, float]]
+    face_morphs: Mapping[str, Mapping[str, float]]
+    unexpressed_morphs: Mapping[str, str]
+    units: tuple[str, ...]
+    folder: Path
+
+    @cached_property
+    def mesh(self) -> BodyMesh:
+        """The body's surface."""
+        return read_mesh(self.folder / "mesh.npz")
+
+    def pose(self, q: Floats) -> Pose:
+        """Local rotations of the body's joints for coordinates q (…, V), radians.
+
+        Twist is shared along upper arm and forearm; helper joints follow their neighbours.
+        """
+        return self.drive.pose(q, self.coordinates.bind, self.chain, self.skeleton)
+
+    def joint_positions(self, pose: Pose) -> Floats:
+        """World positions (…, J, 3) of the body's joints, metres."""
+        return joint_frames(self.skeleton, pose)[0]
+
+    def skin(self, pose: Pose, unit_weights: Mapping[str, float] | Floats | None = None) -> Floats:
+        """World positions (N, 3) of the mesh's vertices in one posture, metres.
+
+        Args: unit_weights: weight per face unit, by name or as (len(units),) in order.
+        """
+        if isinstance(unit_weights, Mapping):
+            weights = np.zeros(len(self.units))
+            for unit, weight in unit_weights.items():
+                weights[self.units.index(unit)] = weight
+            unit_weights = weights
+        return skin(self.mesh, self.skeleton, pose, unit_weights)

@@ -1,0 +1,45 @@
+"""Forward kinematics of the body's joints, and linear blend skinning (Gürel 2010, §4.2.2)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.mesh import BodyMesh
+from azee_rig.rotation import to_matrices
+from azee_rig.skeleton import Pose, Skeleton
+
+Floats = NDArray[np.float64]
+
+
+def joint_frames(skeleton: Skeleton, pose: Pose) -> tuple[Floats, Floats]:
+    """World positions (…, J, 3) and rotations (…, J, 3, 3) of the joints of one posture or many."""
+    local = to_matrices(pose.rotations)
+    world = np.empty_like(local)
+    positions = np.empty(local.shape[:-1])
+    for j, p in enumerate(skeleton.parents):
+        if p < 0:
+            world[..., j, :, :] = local[..., j, :, :]
+            positions[..., j, :] = skeleton.offsets[j] + pose.root_translation
+        else:
+            parent = world[..., p, :, :]
+            world[..., j, :, :] = parent @ local[..., j, :, :]
+            positions[..., j, :] = positions[..., p, :] + parent @ skeleton.offsets[j]
+    return positions, world
+
+
+def skin(
+    mesh: BodyMesh, skeleton: Skeleton, pose: Pose, unit_weights: Floats | None = None
+) -> Floats:
+    """Vertices (N, 3) of one posture: shapes first, then v' = Σ_j w_j (R_j (v − p̄_j) + p_j).
+
+    p̄_j is joint j's place at rest, where every joint's axes are the world's.
+
+    Args: unit_weights: (U,) weights of the face units, in the mesh's order.
+    """
+    positions, rotations = joint_frames(skeleton, pose)
+    shift = positions - (rotations @ skeleton.rest_positions[:, :, None])[..., 0]
+    transforms = np.concatenate([rotations, shift[:, :, None]], axis=2)
+    blend = (mesh.dense_weights @ transforms.reshape(len(transforms), 12)).reshape(-1, 3, 4)
+    shaped = mesh.vertices if unit_weights is None else mesh.shaped(unit_weights)
+    return np.asarray((blend[:, :, :3] @ shaped[:, :, None])[..., 0] + blend[:, :, 3])

@@ -67,11 +67,15 @@ class BoundScore:
     trills: tuple[Bound, ...]
     faces: tuple[Bound, ...]
 
+    @property
+    def moving(self) -> tuple[Bound, ...]:
+        """What asks something of the body, the face left out."""
+        return (*self.postures, *self.paths, *self.trills)
+
     @cached_property
     def all(self) -> tuple[Bound, ...]:
         """Everything, in the order of the score."""
-        every = (*self.postures, *self.paths, *self.trills, *self.faces)
-        return tuple(sorted(every, key=lambda b: b.requirement.rank))
+        return tuple(sorted((*self.moving, *self.faces), key=lambda b: b.requirement.rank))
 
 
 def bind(timeline: Timeline, rig: Rig, binding: Binding, limbs: Limbs) -> BoundScore:

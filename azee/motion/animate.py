@@ -1,0 +1,147 @@
+"""From a score to a clip: the whole of motion, step by step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+import numpy as np
+from azee_solver.solve import SolveReport, solve
+from numpy.typing import NDArray
+
+from azee.motion.bound import Bound, bind
+from azee.motion.clip import Clip
+from azee.motion.face import RAMP_S, face_weights
+from azee.motion.flatten import flatten
+from azee.motion.gauge import instants
+from azee.motion.idle import AFTER_S, BEFORE_S, BLINK, blinks, breathing
+from azee.motion.labels import labels
+from azee.motion.limbs import Limbs
+from azee.motion.movement import Movement
+from azee.motion.plan import plan
+from azee.motion.posture import PostureSolver
+from azee.motion.report import MotionReport, constraint_results, limit_excess
+from azee.motion.trill import laid_on, oscillation
+from azee.score.score import Score
+from azee_rig.rig import Rig
+from azee_solver.demand import Demand
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import Side
+
+Array = NDArray[np.float64]
+
+Mode = Literal["flat"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Animation:
+    """A clip with the report on it.
+
+    key_times: of all key postures, on the clip's time line. lead_s: when the score's time line
+    starts in the clip: the signer stands idle before and moves into the first posture.
+    """
+
+    clip: Clip
+    report: MotionReport
+    key_times: tuple[float, ...]
+    lead_s: float
+
+
+def animate(
+    score: Score,
+    rig: Rig,
+    *,
+    fps: float = 30.0,
+    dominant: Side = Side.RIGHT,
+    mode: Mode = "flat",
+    seed: int = 0,
+    life: bool = True,
+    solver: PostureSolver | None = None,
+) -> Animation:
+    """Make a body play a score.
+
+    Args: fps: frames per second, positive. seed: of the blinks and breaths. life: whether there
+        are any. solver: what solves key postures; `azee_solver.solve` if none is given.
+    Raises: BindingError: the rig lacks a bone, site or morph that the score names.
+        ValueError: an unknown mode or a frame rate that is none.
+    """
+    if mode != "flat":
+        raise ValueError(f"there is no mode '{mode}'; the modes are: flat")
+    if not (math.isfinite(fps) and fps > 0):
+        raise ValueError(f"{fps} frames per second make no clip")
+    evaluator = Evaluator(rig, dominant)
+    limbs = Limbs.of(rig.coordinates)
+    bound = bind(flatten(score), rig, evaluator.binding, limbs)
+    rate = Fraction(fps)
+    inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
+    solved = plan(bound, evaluator, limbs, solver or _solver(rig, dominant), inside)
+    lead, times = _frame_times(score.duration, solved.movement, bound.faces, rate)
+    frames = np.array([float(t) for t in times])
+
+    q = solved.movement.sample(frames)
+    trills = [oscillation(b, _middle(b, solved.movement), evaluator) for b in bound.trills]
+    q, short = laid_on(q, frames, trills, rig.coordinates)
+    units = tuple(rig.units)
+    weights = face_weights(bound.faces, rig.face_morphs, units, dominant, frames)
+    if life:
+        rng = np.random.default_rng(seed)
+        q = q + breathing(rig.coordinates, bound.moving, frames, rng)
+        np.clip(q, rig.coordinates.lower, rig.coordinates.upper, out=q)
+        closing = rig.face_morphs.get(BLINK, {})
+        weights += blinks(closing, units, bound.faces, frames, rng)
+    moving = np.flatnonzero(np.any(weights != 0.0, axis=0))
+    lead_s = float(lead)
+    clip = Clip(
+        frames + lead_s,
+        q,
+        tuple(units[i] for i in moving),
+        weights[:, moving],
+        labels(score, lead_s),
+    )
+    at_frames_and_keys = sorted({*inside, *(p.time for p in solved.postures)})
+    measured = instants(solved.movement, at_frames_and_keys, evaluator)
+    excess, joint = limit_excess(q, rig.coordinates)
+    report = MotionReport(
+        rig=rig.name,
+        fps=float(fps),
+        mode=mode,
+        duration_s=float(clip.times[-1]),
+        lead_s=lead_s,
+        score_s=float(score.duration),
+        constraints=constraint_results(bound, solved, measured, short, dominant),
+        max_excess_rad=excess,
+        excess_joint=joint,
+        postures=solved.postures,
+    )
+    return Animation(clip, report, tuple(float(p.time) + lead_s for p in solved.postures), lead_s)
+
+
+def _solver(rig: Rig, dominant: Side) -> PostureSolver:
+    def answer(demands: Sequence[Demand], *, start: Array, reference: Array) -> SolveReport:
+        return solve(rig, demands, dominant=dominant, start=start, reference=reference)
+
+    return answer
+
+
+def _middle(bound: Bound, movement: Movement) -> Array:
+    """Posture in the middle of a block, (V,)."""
+    interval = bound.requirement.interval
+    return np.asarray(movement.sample(np.array([float(interval.start + interval.end) / 2]))[0])
+
+
+def _frame_times(
+    score_s: Fraction, movement: Movement, faces: Sequence[Bound], rate: Fraction
+) -> tuple[Fraction, list[Fraction]]:
+    """Return the lead before the score's zero and all frames on the score's time line.
+
+    The lead is a whole number of frames, so that the score starts on one.
+    """
+    first, last = min(0.0, movement.start_s), max(float(score_s), movement.end_s)
+    if faces:
+        last = max(last, float(score_s) + RAMP_S)
+    before = math.ceil((BEFORE_S - first) * rate)
+    after = math.ceil((last + AFTER_S) * rate)
+    return before / rate, [n / rate for n in range(-before, after + 1)]

@@ -1,0 +1,81 @@
+"""Unspoken life: blinks and breathing, low, seeded, and never on what a score constrains."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.bound import Bound
+from azee.motion.face import busy
+from azee.motion.spline import minimum_jerk
+from azee_rig.coordinates import Coordinates
+
+Array = NDArray[np.float64]
+
+BEFORE_S, AFTER_S = 0.3, 0.5
+"""How long the signer stands idle before the first and after the last movement, at least."""
+
+BLINK = "AU43"
+BLINK_GAPS_S = (1.8, 5.5)
+CLOSE_S, OPEN_S = 0.07, 0.13
+
+BREATH_S = 3.6
+BREATH_RAD: Mapping[str, float] = {
+    "back_2.flexion": math.radians(-0.5),
+    "clav_L.elevation": math.radians(0.5),
+    "clav_R.elevation": math.radians(0.5),
+}
+"""Amplitude of one breath, in and out. It moves arms and head along, so it rests with them."""
+BREATH_FADE_S = 0.4
+
+
+def blinks(
+    units: Mapping[str, float],
+    names: tuple[str, ...],
+    faces: Iterable[Bound],
+    times_s: Array,
+    rng: np.random.Generator,
+) -> Array:
+    """Return the weights that blinks add to face units at times, (T, len(names)).
+
+    Args: units: weights of the units that close the eyes. faces: facial blocks; a blink that
+        would fall on one is left out.
+    """  # fmt: skip
+    out = np.zeros((len(times_s), len(names)))
+    taken = busy(faces, times_s)
+    time = float(times_s[0]) + rng.uniform(0.3, BLINK_GAPS_S[1])
+    while time < times_s[-1]:
+        during = (times_s >= time) & (times_s <= time + CLOSE_S + OPEN_S)
+        if not np.any(taken & during):
+            curve = minimum_jerk((times_s - time) / CLOSE_S)
+            curve = curve - minimum_jerk((times_s - time - CLOSE_S) / OPEN_S)
+            for unit, weight in units.items():
+                out[:, names.index(unit)] += weight * curve
+        time += rng.uniform(*BLINK_GAPS_S)
+    return out
+
+
+def breathing(
+    coordinates: Coordinates, required: Iterable[Bound], times_s: Array, rng: np.random.Generator
+) -> Array:
+    """Return what breathing adds to coordinates at times, (T, V).
+
+    Args: required: everything that asks something of the posture; breathing fades out before each
+        block and comes back after it.
+    """
+    out = np.zeros((len(times_s), len(coordinates)))
+    phase = rng.uniform(0.0, 2.0 * math.pi)
+    free = np.ones(len(times_s))
+    for b in required:
+        interval = b.requirement.interval
+        before = (float(interval.start) - times_s) / BREATH_FADE_S
+        after = (times_s - float(interval.end)) / BREATH_FADE_S
+        free = np.minimum(free, minimum_jerk(np.maximum(before, after)))
+    wave = free * 0.5 * (1.0 - np.cos(2.0 * math.pi * times_s / BREATH_S + phase))
+    for name, amplitude in BREATH_RAD.items():
+        if name in coordinates.index:
+            out[:, coordinates.index[name]] = amplitude * wave
+    return out

@@ -1,0 +1,73 @@
+"""The whole body's movement: every limb's track through the key postures that key it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.curves import LimbKey, LimbTrack, track
+from azee.motion.limbs import Limbs
+from azee.motion.posture import KeyPosture
+from azee.score.interval import Interval
+from azee_rig.coordinates import Coordinates
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Movement:
+    """Tracks of all limbs, by name, on the score's time line."""
+
+    coordinates: Coordinates
+    limbs: Limbs
+    tracks: Mapping[str, LimbTrack]
+
+    def sample(self, times_s: Array) -> Array:
+        """Return coordinates at times, (T, V) radians, inside the limits."""
+        out = np.empty((len(times_s), len(self.coordinates)))
+        for limb, members in self.limbs.members.items():
+            out[:, members] = self.tracks[limb].sample(times_s)
+        return np.clip(out, self.coordinates.lower, self.coordinates.upper, out=out)
+
+    @property
+    def start_s(self) -> float:
+        """When the first limb leaves its rest."""
+        return min((t.start_s for t in self.tracks.values() if t.keys), default=0.0)
+
+    @property
+    def end_s(self) -> float:
+        """When the last limb has come to rest."""
+        return max((t.end_s for t in self.tracks.values() if t.keys), default=0.0)
+
+
+def movement(
+    postures: Sequence[KeyPosture],
+    holders: Iterable[tuple[frozenset[str], Interval]],
+    coordinates: Coordinates,
+    limbs: Limbs,
+) -> Movement:
+    """Join key postures, in order of time, limb by limb.
+
+    Args: holders: limbs that something needs all through an interval.
+    """
+    holding: dict[str, list[Interval]] = {name: [] for name in limbs.names}
+    for needed, interval in holders:
+        for limb in needed:
+            holding[limb].append(interval)
+    tracks = {}
+    for limb, members in limbs.members.items():
+        own = [p for p in postures if limb in p.limbs]
+        held = [
+            any(i.start <= a.time and b.time <= i.end for i in holding[limb])
+            for a, b in pairwise(own)
+        ] + [False]
+        keys = [
+            LimbKey(float(p.time), p.coordinates[members], limb in p.passing, h)
+            for p, h in zip(own, held, strict=False)
+        ]
+        tracks[limb] = track(keys, coordinates.idle[members])
+    return Movement(coordinates, limbs, tracks)

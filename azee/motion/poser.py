@@ -1,0 +1,160 @@
+"""Solving one moment after another: what a solve starts from, and which limbs it keys."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.bound import Bound
+from azee.motion.curves import GO_ON_S
+from azee.motion.limbs import Limbs
+from azee.motion.posture import KeyPosture, Origin, PostureSolver
+from azee.motion.transpath import Travel, passing_limbs
+from azee_rig.coordinates import Coordinates
+from azee_solver.demand import Demand
+
+Array = NDArray[np.float64]
+
+MOVED_RAD = math.radians(1.0)
+"""A limb that nothing asked for is keyed if the solver moved it by more than this."""
+
+
+def demands_of(
+    bounds: Iterable[Bound], time: Fraction, paths: Iterable[Demand] = ()
+) -> tuple[Demand, ...]:
+    """Return what requirements ask at an instant, each distinct constraint once.
+
+    A block that holds another repeats its constraints: twice the same morph must not add up.
+    """
+    asked: dict[tuple[object, float], Demand] = {}
+    for demand in (*(b.demand(time) for b in bounds), *paths):
+        asked.setdefault((demand.constraint, demand.phase), demand)
+    return tuple(asked.values())
+
+
+def limbs_asked(bounds: Iterable[Bound]) -> frozenset[str]:
+    """Limbs that requirements constrain or read."""
+    return frozenset().union(*(b.limbs | b.read_limbs for b in bounds))
+
+
+@dataclass(slots=True)
+class Poser:
+    """The state of a body as keyframes are solved in order of time.
+
+    The posture term draws a limb to where it was while a block goes on, else to idle. A limb that
+    nothing has needed for longer than `GO_ON_S` is taken to have gone to rest.
+    """
+
+    coordinates: Coordinates
+    limbs: Limbs
+    solver: PostureSolver
+    travels: tuple[Travel, ...] = ()
+    current: Array = field(init=False)
+    last: KeyPosture | None = field(init=False, default=None)
+    _needed: dict[str, Fraction] = field(init=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.current = np.array(self.coordinates.idle)
+
+    def solve(
+        self, time: Fraction, bounds: Sequence[Bound], origin: Origin = Origin.BOUNDARY
+    ) -> KeyPosture:
+        """Solve an instant, or take over the last posture where it asks for nothing new."""
+        demands = demands_of(bounds, time)
+        asked = limbs_asked(bounds)
+        passing = passing_limbs(time, bounds, self.travels)
+        current = self._rested(time)
+        last = self.last
+        if last is not None and _nothing_new(demands, last):
+            indices = [v for limb in asked for v in self.limbs.members[limb]]
+            if np.array_equal(current[indices], last.coordinates[indices]):
+                return KeyPosture(
+                    time, current, asked, passing, tuple(bounds), demands, last.report,
+                    origin, reused=True,
+                )  # fmt: skip
+        going_on = self._going_on(time, bounds)
+        idle = self.coordinates.idle
+        goes = np.array([n in going_on for n in self.limbs.names])[self.limbs.of_coordinate]
+        used = np.array([n in asked for n in self.limbs.names])[self.limbs.of_coordinate]
+        named = np.zeros(len(idle), dtype=np.bool_)
+        for b in bounds:
+            named[[*(b.moves | b.reads)]] = True
+        reference = np.where(goes, current, idle)
+        start = np.where(used & ~named, reference, current)
+        return solved(
+            time,
+            bounds,
+            demands,
+            start,
+            reference,
+            origin,
+            passing,
+            limbs=self.limbs,
+            solver=self.solver,
+        )
+
+    def accept(self, posture: KeyPosture) -> KeyPosture:
+        """Go on from a posture."""
+        self.current = np.array(posture.coordinates)
+        for limb in posture.limbs:
+            self._needed[limb] = posture.time
+        self.last = posture
+        return posture
+
+    def _rested(self, time: Fraction) -> Array:
+        """Return the last posture, with limbs that nothing has needed lately at rest."""
+        out = self.current.copy()
+        for limb, members in self.limbs.members.items():
+            needed = self._needed.get(limb)
+            busy = self.last is not None and any(
+                limb in b.limbs | b.read_limbs and b.requirement.interval.end >= time
+                for b in self.last.bounds
+            )
+            if needed is None or (time - needed > GO_ON_S and not busy):
+                out[members] = self.coordinates.idle[members]
+        return out
+
+    def _going_on(self, time: Fraction, bounds: Iterable[Bound]) -> frozenset[str]:
+        """Limbs that one block constrains both at the last posture and now."""
+        if self.last is None:
+            return frozenset()
+        since = self.last.time
+        going = (b for b in bounds if b.requirement.interval.start <= since < time)
+        return frozenset().union(*(b.limbs for b in going))
+
+
+def solved(
+    time: Fraction,
+    bounds: Sequence[Bound],
+    demands: tuple[Demand, ...],
+    start: Array,
+    reference: Array,
+    origin: Origin,
+    passing: frozenset[str],
+    *,
+    limbs: Limbs,
+    solver: PostureSolver,
+) -> KeyPosture:
+    """Solve demands from given postures and find the limbs that the answer is a key of.
+
+    These are the limbs that the demands move or read, for a constraint holds only with them as
+    the solver saw them, and any other that it moved (the head, levelled over a bent trunk).
+    """
+    report = solver(demands, start=start, reference=reference)
+    moved = np.flatnonzero(np.abs(report.coordinates - start) > MOVED_RAD)
+    keyed = limbs_asked(bounds) | limbs.touching(int(v) for v in moved)
+    return KeyPosture(
+        time, np.array(report.coordinates), keyed, passing, tuple(bounds), demands, report, origin
+    )
+
+
+def _nothing_new(demands: Iterable[Demand], last: KeyPosture) -> bool:
+    """Whether an earlier answer serves: the same demands, or fewer and all were met."""
+    before = {(d.constraint, d.phase) for d in last.demands}
+    now = {(d.constraint, d.phase) for d in demands}
+    return now == before or (last.met and now < before)

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
-import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import HealthCheck, settings
+from programs import NODE_FOLDER, Node, Python
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -27,8 +25,6 @@ settings.register_profile(
 settings.register_profile("search", settings.get_profile("repeatable"), derandomize=False)
 settings.register_profile("long", settings.get_profile("search"), max_examples=5000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
-
-NODE_FOLDER = Path(__file__).parent / "node"
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -46,63 +42,10 @@ def signer() -> Rig:
     return load_rig("signer")
 
 
-@dataclass(frozen=True)
-class Python:
-    """Runs this Python in a process of its own, with the packages that the tests see."""
-
-    folder: Path
-
-    def __call__(
-        self, *arguments: str, stdin: str | bytes = b"", expect: int | None = None
-    ) -> subprocess.CompletedProcess[str]:
-        """Run it in `folder`; with `expect`, fail unless it exits with that code."""
-        path = os.pathsep.join(p for p in sys.path if p)
-        environment = os.environ | {"PYTHONPATH": path, "PYTHONUTF8": "1", "COLUMNS": "100"}
-        data = stdin.encode() if isinstance(stdin, str) else stdin
-        done = subprocess.run(
-            [sys.executable, *arguments],
-            cwd=self.folder,
-            input=data,
-            env=environment,
-            capture_output=True,
-            timeout=300,
-            check=False,
-        )
-        result = subprocess.CompletedProcess(
-            done.args, done.returncode, done.stdout.decode(), done.stderr.decode()
-        )
-        if expect is not None:
-            shown = f"{arguments}\n{result.stdout}\n{result.stderr}"
-            assert result.returncode == expect, f"exit {result.returncode}: {shown}"
-        return result
-
-
 @pytest.fixture
 def python(tmp_path: Path) -> Python:
     """Python in a process of its own, in the test's own folder."""
     return Python(tmp_path)
-
-
-@dataclass(frozen=True)
-class Node:
-    """Runs the scripts of tests/node."""
-
-    program: str
-    chromium: str | None = None
-
-    def __call__(self, script: str, *arguments: str | Path) -> str:
-        """Return what the script prints; fails with its error output."""
-        done = subprocess.run(
-            [self.program, script, *map(str, arguments)],
-            cwd=NODE_FOLDER,
-            env=os.environ | {"CHROMIUM": self.chromium or ""},
-            capture_output=True,
-            text=True,
-            timeout=300,
-            check=False,
-        )
-        assert done.returncode == 0, f"{script}: {done.stdout}\n{done.stderr}"
-        return done.stdout
 
 
 @pytest.fixture(scope="session")

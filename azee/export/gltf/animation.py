@@ -12,6 +12,10 @@ from azee.export.gltf.document import Document
 from azee.motion.clip import Clip, Label
 from azee_rig.skeleton import Pose
 
+Floats = NDArray[np.float64]
+
+REST = (0.0, 0.0, 0.0, 1.0)
+"""No turn, as glTF writes it."""
 STILL = 1e-6
 """Change of a quaternion, a position in metres or a weight that nobody can see."""
 
@@ -21,7 +25,7 @@ def add_animation(
     clip: Clip,
     pose: Pose,
     nodes: Sequence[int],
-    root_offset: NDArray[np.float64],
+    root_offset: Floats,
     mesh_node: int,
     targets: Sequence[str],
 ) -> int:
@@ -29,43 +33,38 @@ def add_animation(
 
     Only what moves has a key per frame. A joint that is turned but never moves has a single key,
     so that the nodes themselves keep the rest posture that retargeting tools start from; one
-    that stays at rest has none.
+    that stays at rest has none. A clip that is at rest all along has one key, of the root.
 
     Args: pose: (T, J) postures of the clip's frames. nodes: the joints' nodes, the first the
         root's. root_offset: (3,) rest position of the root. targets: names of the mesh's morph
         targets, all of the clip's units among them.
     """
     times = (clip.times - clip.times[0]).astype(np.float32)
-    every = document.accessor(times, bounds=True)
-    once: list[int] = []
+    known: dict[int, int] = {}
     samplers: list[dict[str, Any]] = []
     channels: list[dict[str, Any]] = []
 
-    def channel(node: int, path: str, values: NDArray[np.floating[Any]], rest: Any) -> None:
-        """Values one row a frame; left out where they never leave `rest`."""
-        if np.abs(values - rest).max(initial=0) < STILL:
-            return
-        moves = np.abs(values - values[0]).max() >= STILL
-        if not moves and not once:
-            once.append(document.accessor(times[:1], bounds=True))
-        rows = values if moves else values[:1]
-        samplers.append(
-            {
-                "input": every if moves else once[0],
-                "output": document.accessor(rows.astype(np.float32).reshape(_shape(path, rows))),
-            }
-        )
-        target = {"node": node, "path": path}
-        channels.append({"sampler": len(samplers) - 1, "target": target})
+    def channel(node: int, path: str, values: Floats, rest: Sequence[float] | Floats) -> None:
+        """Add a channel of one row a frame; none where the values never leave `rest`."""
+        if np.abs(values - rest).max(initial=0) >= STILL:
+            moves = np.abs(values - values[0]).max() >= STILL
+            keys(node, path, values if moves else values[:1])
+
+    def keys(node: int, path: str, rows: Floats) -> None:
+        inputs = _times(document, times[: len(rows)], known)
+        flat = rows.astype(np.float32).reshape((-1,) if path == "weights" else rows.shape)
+        samplers.append({"input": inputs, "output": document.accessor(flat)})
+        channels.append({"sampler": len(samplers) - 1, "target": {"node": node, "path": path}})
 
     channel(nodes[0], "translation", root_offset + pose.root_translation, root_offset)
     for joint, node in enumerate(nodes):
-        rotations = _continuous(pose.rotations[:, joint])
-        channel(node, "rotation", np.roll(rotations, -1, axis=-1), (0, 0, 0, 1))
+        channel(node, "rotation", _xyzw(pose.rotations[:, joint]), REST)
     if targets:
         weights = np.zeros((len(times), len(targets)))
         weights[:, [targets.index(unit) for unit in clip.units]] = clip.unit_weights
-        channel(mesh_node, "weights", weights, 0)
+        channel(mesh_node, "weights", weights, [0.0])
+    if not channels:
+        keys(nodes[0], "rotation", np.array([REST]))
     return document.add(
         "animations",
         name=_title(clip.labels),
@@ -75,16 +74,19 @@ def add_animation(
     )
 
 
-def _shape(path: str, rows: NDArray[np.floating[Any]]) -> tuple[int, ...]:
-    return (-1,) if path == "weights" else rows.shape
+def _times(document: Document, times: NDArray[np.float32], known: dict[int, int]) -> int:
+    """Return the accessor of key times, one for all channels with as many keys."""
+    if len(times) not in known:
+        known[len(times)] = document.accessor(times, bounds=True)
+    return known[len(times)]
 
 
-def _continuous(rotations: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Choose of q and −q, frame by frame, the one on the side of the frame before; w ≥ 0 first."""
+def _xyzw(rotations: Floats) -> Floats:
+    """Quaternions as glTF orders them, of q and −q the one on the side of the frame before."""
     dots = (rotations[1:] * rotations[:-1]).sum(axis=-1)
     first = -1.0 if rotations[0, 0] < 0 else 1.0
     signs = np.cumprod(np.concatenate([[first], np.where(dots < 0, -1.0, 1.0)]))
-    return rotations * signs[:, None]
+    return np.roll(rotations * signs[:, None], -1, axis=-1)
 
 
 def _title(labels: Sequence[Label]) -> str:
@@ -101,6 +103,7 @@ def _labels(labels: Sequence[Label], start_s: float) -> list[dict[str, Any]]:
         rows.append(
             {
                 "text": label.text,
+                "depth": label.depth,
                 "path": list(stack),
                 "start_s": round(label.start_s - start_s, 6),
                 "end_s": round(label.end_s - start_s, 6),

@@ -1,0 +1,96 @@
+"""Texts into syntax trees. Any text gives a tree, diagnostics, or both; never another exception."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from azee_grammar.automaton import Automaton, UnparsableError
+from azee_grammar.builder import Builder
+from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.layout import Item as Layout
+from azee_grammar.layout import LayoutReader
+from azee_grammar.mistakes import Mistakes, hole_outside_template, more_than_one, nothing_here
+from azee_grammar.source import Source, Span
+from azee_grammar.syntax import Definition, Expr, File, Item
+from azee_grammar.tables import State
+from azee_grammar.token import Token
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """The tree of a text and all that is wrong with it, in the order of the text.
+
+    An item with a mistake is not in the tree, except that a definition stays with its name and
+    without its body, so that the places that use it are not mistaken too.
+    """
+
+    file: File
+    diagnostics: tuple[Diagnostic, ...]
+    comments: tuple[Span, ...] = ()
+
+
+def parse(source: Source, *, template: bool = False) -> Parsed:
+    """Read a text. Holes (`?name`) are mistakes unless it is a template."""
+    reader = LayoutReader(source)
+    items: list[Item] = []
+    diagnostics: list[Diagnostic] = []
+    for layout in reader.items():
+        item, found = _read(source, layout, "item", template=template)
+        diagnostics += found
+        if item is not None:
+            items.append(item)
+    whole = Span(source, 0, len(source.text))
+    comments = tuple(Span(source, start, end) for start, end in reader.comments)
+    return Parsed(File(whole, tuple(items)), tuple(diagnostics), comments)
+
+
+def parse_expression(
+    source: Source, *, template: bool = False
+) -> tuple[Expr | None, tuple[Diagnostic, ...]]:
+    """Read a text that is one expression, as the operand of `-e`; any margin will do."""
+    layouts = list(LayoutReader(source, indented=True).items())
+    if not layouts:
+        return None, (nothing_here(Span(source, 0, 0)),)
+    expression, diagnostics = _read(source, layouts[0], "standalone", template=template)
+    if len(layouts) > 1:
+        extra = layouts[1].tokens[0]
+        diagnostics.append(more_than_one(Span(source, extra.start, extra.end)))
+    return (None if diagnostics else expression), tuple(diagnostics)
+
+
+def _read(
+    source: Source, layout: Layout, start: str, *, template: bool
+) -> tuple[Any, list[Diagnostic]]:
+    """Return what the tokens of one item mean, and everything that is wrong with it."""
+    tokens, diagnostics = layout.tokens, layout.diagnostics
+    if not tokens:
+        return None, diagnostics
+    builder = Builder(source, diagnostics.append)
+    mistakes = Mistakes(source, tokens)
+
+    def mistaken(at: int, state: State) -> None:
+        diagnostics.append(mistakes.at(at, state))
+
+    try:
+        value = Automaton(tokens, builder, mistaken).run(start)
+    except UnparsableError:
+        value = None
+    if not template:
+        holes = (token for token in tokens if token.kind == "HOLE")
+        diagnostics += (hole_outside_template(Span(source, t.start, t.end)) for t in holes)
+    diagnostics.sort(key=_place)
+    return (_unusable(source, tokens) if diagnostics else value), diagnostics
+
+
+def _unusable(source: Source, tokens: list[Token]) -> Definition | None:
+    """Return what is left of an item with mistakes: the name of a definition."""
+    if tokens[0].kind != "DEF" or tokens[1].kind != "NAME":
+        return None
+    name = tokens[1]
+    span = Span(source, name.start, name.end)
+    return Definition(Span(source, tokens[0].start, name.end), name.text, span, (), None)
+
+
+def _place(diagnostic: Diagnostic) -> int:
+    return diagnostic.span.start if diagnostic.span else 0

@@ -1,0 +1,27 @@
+"""What words.py and layout.py hand to the parser."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+FORMS = {"RULE": ":", "REFERENCE": ".", "POSTURE": ":#"}
+"""Token kinds that name a rule, with their sigils."""
+
+HEADS = frozenset({*FORMS, "OPERATOR", "BONE", "SITE"})
+"""Token kinds that take operands."""
+
+BAD = "BAD"
+"""Kind of a token in whose place something stands that has been reported: no grammar takes it."""
+
+
+class Token(NamedTuple):
+    """A terminal of azee.lark, its place in the text, and what it says.
+
+    `text` is the name in NFC without its sigil, the digits of a number or the inside of a text
+    literal; it is empty for layout and punctuation.
+    """
+
+    kind: str
+    start: int
+    end: int
+    text: str = ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import compress
 from typing import Any
 
 from azee_grammar.tables import Production, State, tables
@@ -95,14 +96,18 @@ class Automaton:
                 values.append(token)
                 return True
             rule = table.productions[-1 - action]
-            value = self._reduce(rule, values[len(values) - rule.size :])
-            del states[len(states) - rule.size :]
-            del values[len(values) - rule.size :]
+            size = rule.size
+            if rule.unit and (rule.action is None or not isinstance(values[-1], _Parts)):
+                states[-1] = table.states[states[-2]][rule.origin]
+                continue
+            value = self._reduce(rule, values[-size:])
+            del states[-size:]
+            del values[-size:]
             states.append(table.states[states[-1]][rule.origin])
             values.append(value)
 
     def _reduce(self, rule: Production, values: list[Any]) -> Any:
-        parts = _Parts(value for value, keep in zip(values, rule.keep, strict=True) if keep)
+        parts = _Parts(compress(values, rule.keep))
         if rule.action is None:
             return parts
         flat = _flat(parts)

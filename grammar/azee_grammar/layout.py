@@ -73,7 +73,7 @@ class LayoutReader:
         yield from self._finish()
 
     def _lines(self) -> Iterator[tuple[int, int, int]]:
-        """Yield start, first visible character and end of each line that holds more than comment."""
+        """Yield start, first visible character and end of each line that is not only comment."""
         text = self._text
         at = 1 if text.startswith("\ufeff") else 0
         while at < len(text):

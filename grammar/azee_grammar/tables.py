@@ -11,7 +11,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -31,7 +31,7 @@ class Production:
 
     origin: symbol it reduces to. size: symbols it takes. action: builder method, or None where
     the parts are handed on. keep: per symbol, whether it leaves a part. expand: a single part
-    stands for itself.
+    stands for itself. No production is empty.
     """
 
     origin: str
@@ -39,6 +39,12 @@ class Production:
     action: str | None
     keep: tuple[bool, ...]
     expand: bool
+    unit: bool = field(init=False)
+    """Whether a value passes through unchanged, unless it is parts that must be joined."""
+
+    def __post_init__(self) -> None:
+        unit = self.size == 1 and self.keep[0] and (self.action is None or self.expand)
+        object.__setattr__(self, "unit", unit)
 
 
 @dataclass(frozen=True, slots=True)

@@ -156,5 +156,5 @@ def _positional_after_named(named: Named, operand: Expr) -> Diagnostic:
         "an operand without a name stands after one that is named",
         operand.span,
         help="write the operands without names first, in the order of declaration",
-        related=(Related(f"`'{named.name.name}` is named here", named.span),),
+        related=(Related(f"`'{named.name.name}` is named", named.span),),
     )

@@ -18,7 +18,7 @@ from azee_grammar.token import BAD, Token
 from azee_grammar.words import WordReader
 
 DEEPEST = 200
-"""Levels of indentation and parentheses together: what reads the tree may recurse."""
+"""Levels of indentation, parentheses and named operands together: who reads the tree recurses."""
 
 _LINE = re.compile(r"([^\r\n]*)(?:\r\n|\r|\n|\Z)")
 _SPACE = re.compile(r"\s*")
@@ -52,6 +52,7 @@ class LayoutReader:
         self._item = Item()
         self._levels: list[str] = []  # prefixes of the enclosing lines; empty outside of items
         self._open: list[int] = []  # indices of the tokens of unclosed parentheses
+        self._named: set[int] = set()  # those of them in which an argument's name was last read
         self._line = 0  # index of the first token of the line being read
         self._skipping = False
 
@@ -162,11 +163,14 @@ class LayoutReader:
                 if self._too_deep(token.start):
                     return
                 self._open.append(len(item.tokens))
+            elif token.kind == "CLOSE" and not self._open:
+                token = self._stray(token)
             elif token.kind == "CLOSE":
-                if self._open:
-                    self._open.pop()
-                else:
-                    token = self._stray(token)
+                self._named.discard(self._open.pop())
+            elif token.kind == "_EQUALS" and self._open:
+                self._named.add(self._open[-1])
+            elif token.kind == "_COMMA" and self._open:
+                self._named.discard(self._open[-1])
             item.tokens.append(token)
         if not self._open:
             self._add("_NEWLINE", item.tokens[-1].end)
@@ -191,6 +195,7 @@ class LayoutReader:
         count = len(self._open)
         at = self._open[0]
         self._open = []
+        self._named.clear()
         if all(token.kind != BAD for token in tokens[self._line :]):
             opened = tokens[at]
             inner = f", nor {'is' if count == 2 else 'are'} {count - 1} inside it"
@@ -212,6 +217,7 @@ class LayoutReader:
         self._report(diagnostic)
         self._skipping = True
         self._open = []
+        self._named.clear()
         if self._item.tokens:
             end = self._item.tokens[-1].end
             self._add(BAD, end)
@@ -219,7 +225,7 @@ class LayoutReader:
         return False
 
     def _too_deep(self, at: int) -> bool:
-        if len(self._levels) - 1 + len(self._open) < DEEPEST:
+        if len(self._levels) - 1 + len(self._open) + len(self._named) < DEEPEST:
             return False
         self._refuse(
             Diagnostic(

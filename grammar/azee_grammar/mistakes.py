@@ -77,7 +77,7 @@ class Mistakes:
         """Answer deeper lines below a line that takes none."""
         last = self._tokens[index - 2]  # the word before NEWLINE
         first = next(t for t in self._tokens[index:] if t.kind not in _LAYOUT)
-        described, help_ = self._complete(index - 2)
+        complete, help_ = self._complete(index - 2)
         if last.kind == "SYMBOL":
             help_ = (
                 f"write the value of `{self._shown(last)}` behind it, "
@@ -85,16 +85,16 @@ class Mistakes:
             )
         return Diagnostic(
             "takes-no-operands",
-            f"{described} takes no operands",
+            f"{complete} takes no operands",
             self._span(first),
             label="this line is indented below it",
             help=help_,
-            related=(Related(f"{described} stands here", self._span(last)),),
+            related=(Related(f"{complete} stands", self._span(last)),),
         )
 
     def _called(self, index: int) -> Diagnostic:
         """Answer a parenthesis that opens directly behind something that cannot be called."""
-        described, help_ = self._complete(index - 1)
+        complete, help_ = self._complete(index - 1)
         before = self._tokens[index - 1]
         if before.kind == "PARAMETER":
             help_ = f"`apply {self._shown(before)}` applies the rule that a parameter holds"
@@ -102,17 +102,17 @@ class Mistakes:
             help_ = "a space before the parenthesis makes it an operand of its own"
         return Diagnostic(
             "takes-no-operands",
-            f"{described} takes no operands",
+            f"{complete} takes no operands",
             self._span(self._tokens[index]),
             label="this parenthesis opens a call",
             help=help_,
         )
 
     def _takes_none(self, index: int, *, label: str, advice: str | None = None) -> Diagnostic:
-        described, hint = self._complete(index - 1)
+        complete, hint = self._complete(index - 1)
         return Diagnostic(
             "takes-no-operands",
-            f"{described} takes no operands",
+            f"{complete} takes no operands",
             self._span(self._tokens[index]),
             label=label,
             help=advice or hint,
@@ -128,11 +128,11 @@ class Mistakes:
         if self._tokens[opened].kind == "_CALL":
             head = self._shown(self._tokens[opened - 1])
             return (
-                f"the call `{head}(…)` is complete and",
+                f"the complete call `{head}(…)`",
                 "write all operands between the parentheses, or all of them without any",
             )
         return (
-            "an expression in parentheses is complete and",
+            "an expression in parentheses",
             "write what belongs to it between the parentheses",
         )
 

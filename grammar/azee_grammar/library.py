@@ -1,0 +1,17 @@
+"""The rule libraries that ship with the project: folders of .azee files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_RULES = Path(__file__).parent / "rules"
+
+
+def shipped() -> Path:
+    """Return the folder whose subfolders are the shipped libraries."""
+    return _RULES
+
+
+def shipped_names() -> tuple[str, ...]:
+    """Return the names of the shipped libraries, as they stand after `use '`."""
+    return tuple(sorted(folder.name for folder in _RULES.iterdir() if folder.is_dir()))

@@ -1,0 +1,77 @@
+"""What can be said of a whole score once the signer's dominant hand is known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from azee.lang.conflict import orient_conflict
+from azee.score.interval import Interval
+from azee.score.score import Hold, Key, Leaf, Score, leaves
+from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.source import Span
+from azee_solver.constraint import Constraint, Origin, Place, Transpath
+from azee_solver.geometry import Side
+
+SpanOf = Callable[[Origin], Span | None]
+
+
+def audit(score: Score, dominant: Side, span_of: SpanOf, whole: Span) -> Iterator[Diagnostic]:
+    """Yield `orient-conflict`, `transpath-ends` and holds without anything to hold.
+
+    `span_of` finds the place of a constraint in the text; `whole` is the utterance.
+    """
+
+    def where(constraint: Constraint) -> Span:
+        found = None if constraint.origin is None else span_of(constraint.origin)
+        return found or whole
+
+    if isinstance(score, Hold):
+        message = f"there is no block `{score.block}` to hold: this hold stands alone"
+        yield Diagnostic("unknown-block", message, whole)
+    found = [leaf for leaf in leaves(score) if isinstance(leaf.score, Key)]
+    for leaf in found:
+        constraints = _constraints(leaf)
+        conflict = orient_conflict(constraints, dominant)
+        if conflict is not None:
+            message, number = conflict
+            hand = "left" if dominant is Side.LEFT else "right"
+            message += f" when the dominant hand is the {hand} one"
+            yield Diagnostic("orient-conflict", message, where(constraints[number]))
+    yield from _transpath_ends(found, dominant, where)
+
+
+def _constraints(leaf: Leaf) -> tuple[Constraint, ...]:
+    assert isinstance(leaf.score, Key)
+    return leaf.score.constraints
+
+
+def _transpath_ends(
+    found: list[Leaf], dominant: Side, where: Callable[[Constraint], Span]
+) -> Iterator[Diagnostic]:
+    """Look for the blocks that a controlled movement leads from and to."""
+    placed: dict[str, list[Interval]] = {}
+    moved: list[tuple[Transpath, Interval]] = []
+    for leaf in found:
+        for constraint in _constraints(leaf):
+            if isinstance(constraint, Place):
+                key = constraint.site.key(dominant)
+                placed.setdefault(key, []).append(leaf.interval)
+            elif isinstance(constraint, Transpath):
+                moved.append((constraint, leaf.interval))
+    for constraint, interval in moved:
+        places = placed.get(constraint.site.key(dominant), [])
+        before = any(p.start < interval.start for p in places)
+        before = before or any(p.start <= interval.start and p.end < interval.end for p in places)
+        after = any(p.end > interval.end for p in places)
+        after = after or any(p.end >= interval.end and p.start > interval.start for p in places)
+        missing = [word for word, there in (("before", before), ("after", after)) if not there]
+        if missing:
+            site = constraint.site
+            operands = f"({site.side.value})" if site.side else ""
+            message = f"no block places `@{site.name}{operands}` {' or '.join(missing)} this path"
+            yield Diagnostic(
+                "transpath-ends",
+                message,
+                where(constraint),
+                help="a path leads from a block that places its site to another one",
+            )

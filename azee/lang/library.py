@@ -1,0 +1,203 @@
+"""Rule libraries: where they are found, and what their files define."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+from azee.lang.resolve import Resolving
+from azee.lang.rule import Rule, is_azop
+from azee.lang.scope import Namespace, Scope
+from azee_grammar.diagnostic import AZeeError, Diagnostic, Related
+from azee_grammar.files import read_source
+from azee_grammar.library import shipped, shipped_names
+from azee_grammar.nearest import nearest
+from azee_grammar.parser import parse
+from azee_grammar.source import Source
+from azee_grammar.syntax import Definition, File, Use, Utterance
+
+SUFFIXES = (".azee", ".az")
+CORE = "core"
+DEFAULT = "lsf"
+"""What is in scope beside the core where a text uses nothing."""
+
+
+@dataclass(eq=False)
+class Library:
+    """A namespace with everything that is wrong with its files."""
+
+    namespace: Namespace
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+
+def own_name(file: File) -> str | None:
+    """Return the name of the rule that a file of a single `azop` defines: its own."""
+    if len(file.items) != 1 or not isinstance(item := file.items[0], Utterance):
+        return None
+    if not is_azop(item.expr):
+        return None
+    return unicodedata.normalize("NFC", Path(item.span.source.name).stem)
+
+
+def definitions(file: File) -> Iterator[Definition]:
+    """Yield what a file defines, in order."""
+    name = own_name(file)
+    for item in file.items:
+        if isinstance(item, Definition):
+            yield item
+        elif isinstance(item, Utterance) and name is not None:
+            yield Definition(item.span, name, item.expr.span, (), item.expr)
+
+
+def define(
+    namespace: Namespace, found: Iterable[Definition], scope: Scope, resolving: Resolving
+) -> Iterator[Diagnostic]:
+    """Add rules to a namespace; yield `duplicate-definition` for names that are taken."""
+    for definition in found:
+        other = namespace.rules.get(definition.name)
+        if other is None:
+            rule = Rule(definition, namespace.name, scope, resolving)
+            namespace.rules[definition.name] = rule
+            continue
+        yield Diagnostic(
+            "duplicate-definition",
+            f"there are two rules `{definition.name}`",
+            definition.name_span,
+            related=(Related("the first is defined", other.definition.name_span),),
+        )
+
+
+class Librarian:
+    """Finds and reads libraries, each once.
+
+    A library is a folder of texts, or one text, beside the text that uses it, then in each of
+    the given folders, then among those that ship. Names are plain: no text reads elsewhere.
+    """
+
+    def __init__(self, folders: Sequence[Path], resolving: Resolving, core: Namespace) -> None:
+        self._folders = folders
+        self._resolving = resolving
+        self._core = core
+        self._libraries: dict[Path, Library] = {}
+
+    @property
+    def libraries(self) -> Iterable[Library]:
+        """All that were read."""
+        return self._libraries.values()
+
+    def scope(
+        self, namespace: Namespace, file: File, folder: Path | None
+    ) -> tuple[Scope, list[Diagnostic]]:
+        """Return what a text sees: its own rules, the libraries it uses, the core.
+
+        Without any `use` that is the default library.
+        """
+        scope = Scope(namespace, self._core)
+        problems: list[Diagnostic] = []
+        uses = [item for item in file.items if isinstance(item, Use)]
+        for use in uses:
+            library = self._found(use.library.name, folder)
+            if library is None:
+                problems.append(self._missing(use))
+            elif library.namespace is not namespace:
+                scope.libraries.append(library.namespace)
+        if not uses:
+            scope.libraries.append(shipped_library(DEFAULT).namespace)
+        return scope, problems
+
+    def _found(self, name: str, folder: Path | None) -> Library | None:
+        if not _is_plain(name):
+            return None
+        beside = () if folder is None else (folder, folder.parent)
+        for place in (*beside, *self._folders):
+            for path in (place / name, *(place / f"{name}{suffix}" for suffix in SUFFIXES)):
+                if path.is_dir() if path.name == name else path.is_file():
+                    return self._read(name, path)
+        return shipped_library(name) if name in shipped_names() else None
+
+    def _read(self, name: str, path: Path) -> Library:
+        if path in self._libraries:
+            return self._libraries[path]
+        library = Library(Namespace(name))
+        self._libraries[path] = library
+        files = _texts(path) if path.is_dir() else [path]
+        folder = path if path.is_dir() else path.parent
+        library.diagnostics += _same_but_for_case(files)
+        for file in files:
+            try:
+                source = read_source(file)
+            except AZeeError as problem:
+                library.diagnostics += problem.diagnostics
+                continue
+            self._add(library, source, folder)
+        return library
+
+    def _add(self, library: Library, source: Source, folder: Path) -> None:
+        parsed = parse(source)
+        library.diagnostics += parsed.diagnostics
+        scope, problems = self.scope(library.namespace, parsed.file, folder)
+        library.diagnostics += problems
+        library.diagnostics += define(
+            library.namespace, definitions(parsed.file), scope, self._resolving
+        )
+
+    def _missing(self, use: Use) -> Diagnostic:
+        name = use.library.name
+        found = [f"`'{candidate}`" for candidate in nearest(name, shipped_names())]
+        if not _is_plain(name):
+            hint = "a library has a plain name; `--library DIR` adds folders to look in"
+        elif found:
+            hint = f"did you mean {' or '.join(found)}?"
+        else:
+            hint = "it is looked for beside this file, in each `--library DIR`, and among " + (
+                ", ".join(f"`'{known}`" for known in shipped_names())
+            )
+        message = f"there is no library `'{name}`"
+        return Diagnostic("library-not-found", message, use.library.span, help=hint)
+
+
+def _is_plain(name: str) -> bool:
+    return not name.startswith(".") and not any(c in '/\\:*?"<>|\0' for c in name)
+
+
+def _texts(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.iterdir() if path.suffix in SUFFIXES)
+
+
+def _same_but_for_case(files: Sequence[Path]) -> Iterator[Diagnostic]:
+    """Yield a diagnostic for files that some file systems cannot tell apart."""
+    seen: dict[str, Path] = {}
+    for path in files:
+        name = unicodedata.normalize("NFC", path.stem).casefold()
+        if name in seen:
+            message = f"`{path}` and `{seen[name]}` have the same name but for case or suffix"
+            yield Diagnostic("duplicate-definition", message, None)
+        seen.setdefault(name, path)
+
+
+# Shipped libraries ----------------------------------------------------------------------------
+
+SHIPPED_RESOLVING = Resolving()
+"""What the shipped rules share; they are resolved once in the life of a process."""
+
+
+@cache
+def shipped_library(name: str) -> Library:
+    """Return a library that ships. Its rules see it, the libraries it uses, and the core."""
+    library = Library(Namespace(name))
+    core = library.namespace if name == CORE else shipped_library(CORE).namespace
+    for path in _texts(shipped() / name):
+        source = Source(f"{name}/{path.name}", read_source(path).text)
+        parsed = parse(source)
+        library.diagnostics += parsed.diagnostics
+        scope = Scope(library.namespace, core)
+        for item in parsed.file.items:
+            if isinstance(item, Use):
+                scope.libraries.append(shipped_library(item.library.name).namespace)
+        library.diagnostics += define(
+            library.namespace, definitions(parsed.file), scope, SHIPPED_RESOLVING
+        )
+    return library

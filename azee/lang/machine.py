@@ -1,0 +1,112 @@
+"""The state of one evaluation: what has been spent, and how deep it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from azee.lang.fault import Exhausted, Fault
+from azee.lang.procedure import Applicable, Procedure
+from azee.lang.values import OperatorValue, ScoreValue, Value
+from azee.score.score import Call
+from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.source import Span
+from azee_solver.constraint import Origin
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What one evaluation may spend, so that no text can hang or fill the memory."""
+
+    depth: int = 200
+    """Expressions inside one another, bodies of called rules included; also of values."""
+    steps: int = 1_000_000
+    """Expressions evaluated, and elements that list operators and scores visit."""
+    size: int = 200_000
+    """Parts of one value, counted as a tree: what is used twice counts twice."""
+
+
+DEFAULT_LIMITS = Limits()
+
+
+class Machine:
+    """Evaluates within limits. One machine serves one utterance."""
+
+    __slots__ = ("depth", "limits", "steps")
+
+    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
+        self.limits = limits
+        self.steps = 0
+        self.depth = 0
+
+    def enter(self, steps: int, span: Span) -> int:
+        """Spend steps and go one level deeper; return the level to come back to."""
+        self.steps += steps
+        depth = self.depth
+        if self.steps > self.limits.steps:
+            raise self._out_of_steps(span)
+        if depth >= self.limits.depth:
+            message = f"more than {self.limits.depth} expressions stand inside one another"
+            hint = "does a rule apply itself without end?"
+            raise Exhausted(Diagnostic("recursion-limit", message, span, help=hint))
+        self.depth = depth + 1
+        return depth
+
+    def spend(self, steps: int, span: Span) -> None:
+        """Spend steps on the parts of a value that an operator visits one by one."""
+        self.steps += steps
+        if self.steps > self.limits.steps:
+            raise self._out_of_steps(span)
+
+    def _out_of_steps(self, span: Span) -> Exhausted:
+        message = f"this takes more than {self.limits.steps:,} steps"
+        return Exhausted(Diagnostic("step-limit", message, span))
+
+    def require_size(self, size: int, span: Span) -> None:
+        """Refuse a value of more than `limits.size` parts, before it is built."""
+        if size > self.limits.size:
+            message = f"this value has more than {self.limits.size:,} parts"
+            raise Exhausted(Diagnostic("size-limit", message, span))
+
+    def require_depth(self, depth: int, span: Span) -> None:
+        """Refuse a value nested deeper than `limits.depth`."""
+        if depth > self.limits.depth:
+            message = f"this value is nested more than {self.limits.depth} deep"
+            raise Exhausted(Diagnostic("recursion-limit", message, span))
+
+    def call(
+        self, operator: Applicable, given: Mapping[str, Value], span: Span, origin: Origin
+    ) -> Value:
+        """Apply a rule or an `azop` to arguments by name.
+
+        Defaults are evaluated now and see the parameters before them; that nothing mandatory is
+        missing was settled by `arguments.bound`. `span` and `origin` say where the application
+        stands.
+
+        Raises: Fault: whatever goes wrong inside, with this call added to the rule call stack.
+        """
+        procedure = operator.procedure
+        names = dict[str, Value](procedure.names)
+        known = {**operator.bound, **given}
+        depth = self.depth
+        try:
+            for parameter in procedure.parameters:
+                if parameter.name in known or parameter.default is None:
+                    names[parameter.name] = known[parameter.name]
+                else:
+                    names[parameter.name] = parameter.default.evaluate(self, names)
+            value = procedure.body.evaluate(self, names)
+        except Fault as problem:
+            self.depth = depth
+            raise problem.through(operator.title, span) from None
+        if procedure.rule is not None and isinstance(value, ScoreValue):
+            calls = (Call(procedure.rule, origin), *value.content.calls)
+            return replace(value, content=replace(value.content, calls=calls))
+        return value
+
+
+def operator_value(procedure: Procedure, bound: Mapping[str, Value]) -> OperatorValue:
+    """Return a rule or an `azop` as a value, with some arguments given."""
+    size = 1 + sum(v.size for v in bound.values())
+    depth = 1 + max((v.depth for v in bound.values()), default=0)
+    return OperatorValue(Applicable(procedure, bound), size, depth)

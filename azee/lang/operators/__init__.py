@@ -1,0 +1,1 @@
+"""The native operators, by theme; each module lists its own in `OPERATORS`."""

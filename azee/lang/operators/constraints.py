@@ -1,0 +1,311 @@
+"""Constraints on the posture, and sets of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from azee.lang.conflict import orient_conflict
+from azee.lang.fault import Fault, did_you_mean, fault
+from azee.lang.machine import Machine
+from azee.lang.native import Group, Native, Occurrence, Operand, Option
+from azee.lang.values import (
+    ConstraintsValue,
+    Kind,
+    ListValue,
+    NumberValue,
+    SideValue,
+    SymbolValue,
+    Value,
+)
+from azee_grammar import vocabulary
+from azee_grammar.source import Span
+from azee_solver.constraint import (
+    BoneAxis,
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+    Transpath,
+    Trill,
+)
+from azee_solver.geometry import Bone, Path, Point, Side, Site, Vector
+
+TRILL_HZ = 5.0
+TRILL_DEG = 12.0
+"""What a trill does unless its text says otherwise; ours, nothing is published."""
+
+Constraints = tuple[Constraint, ...]
+
+
+def _place(at: Occurrence, site: Site, point: Point, *, dist: float, contact: bool) -> Constraints:
+    return (Place(site, point, dist, contact, origin=at.origin),)
+
+
+def _orient(at: Occurrence, axis: str, bone: Bone, relation: str, vector: Vector) -> Constraints:
+    return (Orient(BoneAxis(axis), bone, Relation(relation), vector, origin=at.origin),)
+
+
+def _look(at: Occurrence, vector: Vector) -> Constraints:
+    return (Look(vector, origin=at.origin),)
+
+
+def _lookat(at: Occurrence, point: Point) -> Constraints:
+    return (LookAt(point, origin=at.origin),)
+
+
+def _rotate(at: Occurrence, bone: Bone, axis: Vector, angle_deg: float) -> Constraints:
+    return (Rotate(bone, axis, math.radians(angle_deg), origin=at.origin),)
+
+
+def _transpath(at: Occurrence, site: Site, path: Path) -> Constraints:
+    return (Transpath(site, path, origin=at.origin),)
+
+
+def _trill(
+    at: Occurrence, bone: Bone, axis: Vector, side: Side | None = None, *, freq: float, amp: float
+) -> Constraints:
+    if side is not None and bone.side is not side:
+        message = "the side of a trill is that of its bone"
+        raise at.fault("bad-side", message, "side", help="leave it out: the bone has one")
+    if freq <= 0:
+        raise at.fault("number-range", "the frequency of a trill is greater than 0", "freq")
+    return (Trill(bone, axis, freq, math.radians(amp), origin=at.origin),)
+
+
+def _morph(at: Occurrence, values: tuple[Value, ...]) -> Constraints:
+    morphs: list[Constraint] = []
+    i = 0
+    while i < len(values):
+        name = values[i]
+        if not isinstance(name, SymbolValue):
+            message = (
+                f"the name of a morph, such as `'AU12`, is expected here, not {name.kind.value}"
+            )
+            raise at.fault("wrong-type", message, "item", i)
+        start = i
+        i += 1
+        side = None
+        if i < len(values) and isinstance(given := values[i], SideValue):
+            side = given.content
+            i += 1
+        weight = values[i] if i < len(values) else None
+        if not isinstance(weight, NumberValue):
+            message = f"the morph `'{name.content}` has no weight"
+            raise at.fault("missing-value", message, "item", start)
+        i += 1
+        if (problem := _unknown_morph(name.content, at.span_of("item", start))) is not None:
+            raise problem
+        entry = vocabulary.morph(name.content)
+        assert entry is not None
+        if side is not None and not entry.takes_side:
+            message = f"the morph `'{name.content}` takes no side"
+            raise at.fault("bad-side", message, "item", start + 1)
+        if side is None and entry.takes_side and not entry.side_optional:
+            raise at.fault(
+                "bad-side",
+                f"the morph `'{name.content}` lacks its side",
+                "item",
+                start,
+                help=f"write `'{name.content} s {weight.content:g}`: s, w, L or R",
+            )
+        morphs.append(Morph(name.content, side, weight.content, origin=at.origin))
+    return tuple(morphs)
+
+
+def _unknown_morph(name: str, span: Span) -> Fault | None:
+    if vocabulary.morph(name) is not None:
+        return None
+    message = f"AZee has no morph `'{name}`"
+    instead = vocabulary.WITHOUT_MORPH.get(name)
+    if instead is not None:
+        return fault("unknown-morph", message, span, help=instead)
+    known = (*vocabulary.morph_names(), *vocabulary.MORPHS)
+    return fault(
+        "unknown-morph", message, span, label="no such morph", help=did_you_mean(name, known, "'")
+    )
+
+
+def _cstr(at: Occurrence, machine: Machine, values: tuple[Value, ...]) -> Constraints:
+    flat: list[Constraint] = []
+    for i, value in enumerate(values):
+        flat += _flattened(at, machine, value, i)
+    conflict = orient_conflict(flat)
+    if conflict is not None:
+        message, where = conflict
+        number = next(i for i, v in enumerate(values) if _contains(v, flat[where]))
+        raise at.fault("orient-conflict", message, "constraint", number)
+    return tuple(flat)
+
+
+def _flattened(at: Occurrence, machine: Machine, value: Value, number: int) -> Iterable[Constraint]:
+    if isinstance(value, ConstraintsValue):
+        machine.spend(len(value.content), at.span)
+        return value.content
+    if isinstance(value, ListValue):
+        machine.spend(len(value.content), at.span)
+        return [c for item in value.content for c in _flattened(at, machine, item, number)]
+    message = f"`cstr` wants constraints, not {value.kind.value}"
+    raise at.fault("wrong-type", message, "constraint", number, label=f"this is {value.kind.value}")
+
+
+def _contains(value: Value, constraint: Constraint) -> bool:
+    if isinstance(value, ListValue):
+        return any(_contains(item, constraint) for item in value.content)
+    return isinstance(value, ConstraintsValue) and any(c is constraint for c in value.content)
+
+
+def _native(
+    name: str,
+    meaning: str,
+    operands: tuple[Operand, ...],
+    function: Callable[..., Any],
+    example: str,
+    *,
+    options: tuple[Option, ...] = (),
+    uses_machine: bool = False,
+    published: bool = True,
+) -> Native:
+    return Native(
+        name,
+        Group.CONSTRAINTS,
+        meaning,
+        operands,
+        options,
+        Kind.CONSTRAINTS,
+        published,
+        example,
+        function,
+        uses_machine,
+    )
+
+
+_SITE = Operand("site", "a site such as `@I_TIP(s)`", (Kind.SITE,))
+_POINT = Operand("point", "a point or a site", (Kind.POINT,))
+_BONE = Operand("bone", "a bone such as `!palm(s)`", (Kind.BONE,))
+_VECTOR = Operand("vector", "a vector", (Kind.VECTOR,))
+_AXIS = Operand("axis", "a vector", (Kind.VECTOR,))
+
+OPERATORS = (
+    _native(
+        "place",
+        "The site lies at the point. `'dist` is metres along the outward normal of a target site, "
+        "in any direction from another point; `'contact` lets the surfaces touch.",
+        (_SITE, _POINT),
+        _place,
+        "place @I_TIP(s) @CH 'dist .02",
+        options=(
+            Option(
+                "dist", "metres from the point", Operand("distance", "metres", (Kind.NUMBER,)), 0.0
+            ),
+            Option("contact", "the surfaces may touch here"),
+        ),
+    ),
+    _native(
+        "orient",
+        "An axis of a bone is parallel to a vector, in the same sense (`'along`), or square to it "
+        "(`'across`). One set holds at most one `'dir` and one `'nrm` of a bone.",
+        (
+            Operand("axis", "its direction or normal", (Kind.SYMBOL,), words=("dir", "nrm")),
+            _BONE,
+            Operand("relation", "parallel or square", (Kind.SYMBOL,), words=("along", "across")),
+            _VECTOR,
+        ),
+        _orient,
+        "orient 'nrm !palm(s) 'along ^down",
+    ),
+    _native(
+        "look",
+        "The gaze goes along a vector: eyes first, then head, then neck.",
+        (_VECTOR,),
+        _look,
+        "look ^fwd",
+    ),
+    _native(
+        "lookat",
+        "The gaze goes to a point: eyes first, then head, then neck.",
+        (_POINT,),
+        _lookat,
+        "lookat @PA(w)",
+    ),
+    _native(
+        "morph",
+        "Shapes of the face and presets of the hands: a name, a side where it takes one, a weight, "
+        "and again. Negative weights are legal.",
+        (
+            Operand(
+                "item",
+                "`'NAME [SIDE] WEIGHT`",
+                (Kind.SYMBOL, Kind.SIDE, Kind.NUMBER),
+                rest=True,
+                least=2,
+                raw=True,
+                vocabulary=_unknown_morph,
+            ),
+        ),
+        _morph,
+        "morph 'AU12 .5 'index_bend s 1",
+    ),
+    _native(
+        "trill",
+        "A small rapid oscillation of a bone about an axis while the block lasts.",
+        (
+            _BONE,
+            _AXIS,
+            Operand("side", "the bone's side once more", (Kind.SIDE,), optional=True),
+        ),
+        _trill,
+        "trill !palm(s) ^up 'freq 6",
+        options=(
+            Option(
+                "freq",
+                f"oscillations per second, {TRILL_HZ:g} unless said",
+                Operand("frequency", "Hz", (Kind.NUMBER,)),
+                TRILL_HZ,
+            ),
+            Option(
+                "amp",
+                f"degrees to either side, {TRILL_DEG:g} unless said",
+                Operand("amplitude", "degrees", (Kind.NUMBER,)),
+                TRILL_DEG,
+            ),
+        ),
+    ),
+    _native(
+        "rotate",
+        "A bone is turned from neutral about an axis in its parent bone's frame, right-handed, "
+        "by degrees.",
+        (_BONE, _AXIS, Operand("angle", "degrees", (Kind.NUMBER,))),
+        _rotate,
+        "rotate !head ^right 10",
+    ),
+    _native(
+        "transpath",
+        "A controlled movement of a site along a path, between the blocks that place it before "
+        "and after.",
+        (_SITE, Operand("path", "a path", (Kind.PATH,))),
+        _transpath,
+        "transpath @I_TIP(s) (arc ^up)",
+    ),
+    _native(
+        "cstr",
+        "The set of all that is given; sets and lists are flattened.",
+        (
+            Operand(
+                "constraint",
+                "constraints, sets or lists of them",
+                (Kind.CONSTRAINTS, Kind.LIST),
+                rest=True,
+                raw=True,
+            ),
+        ),
+        _cstr,
+        "cstr (look ^fwd) (morph 'AU12 .5)",
+        uses_machine=True,
+    ),
+)

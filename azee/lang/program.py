@@ -1,0 +1,255 @@
+"""Programs: a text with its libraries, checked and evaluated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
+
+from azee.lang.audit import audit
+from azee.lang.fault import Fault
+from azee.lang.library import (
+    CORE,
+    SHIPPED_RESOLVING,
+    Librarian,
+    define,
+    definitions,
+    own_name,
+    shipped_library,
+)
+from azee.lang.machine import DEFAULT_LIMITS, Limits, Machine
+from azee.lang.resolve import Resolving
+from azee.lang.rule import Rule
+from azee.lang.scope import Namespace, Scope
+from azee.lang.values import Kind, ScoreValue, Value
+from azee.score.layout import in_sequence
+from azee.score.score import Score
+from azee_grammar.diagnostic import AZeeError, Diagnostic, Severity
+from azee_grammar.parser import parse, parse_expression
+from azee_grammar.source import Source, Span
+from azee_grammar.syntax import Application, Expr, File, RuleName, Utterance
+from azee_solver.constraint import Origin
+from azee_solver.geometry import Side
+
+BETWEEN_UTTERANCES_S = Fraction(1)
+_MOST_CALLS = 12
+"""Of a longer rule call stack, the innermost and the outermost half are shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class UtteranceScore:
+    """An utterance of a text, evaluated."""
+
+    label: str
+    score: Score
+    span: Span
+
+
+@dataclass(frozen=True, eq=False)
+class Program:
+    """A text with the libraries it uses."""
+
+    source: Source
+    file: File
+    scope: Scope
+    librarian: Librarian
+    resolving: Resolving
+    limits: Limits
+    found: tuple[Diagnostic, ...]
+    """What was wrong with the text and its libraries before anything was resolved."""
+
+    @property
+    def utterances(self) -> tuple[UtteranceScore, ...]:
+        """All utterances of the text, evaluated. Raises: AZeeError: all that is wrong with it."""
+        self._require_sound(self.check())
+        return tuple(u for u in self._evaluated[0] if u is not None)
+
+    def score(self, utterance: int | None = None, dominant: Side = Side.RIGHT) -> Score:
+        """Return the score of one utterance, by its number from 1, or of all in sequence.
+
+        Raises: AZeeError: all that is wrong with the text, or `no-utterance`.
+        """
+        self._require_sound(self.check(dominant))
+        scores = [u.score for u in self.utterances]
+        if utterance is not None:
+            if not 1 <= utterance <= len(scores):
+                raise AZeeError(self._no_utterance(utterance, len(scores)))
+            return scores[utterance - 1]
+        if not scores:
+            raise AZeeError(self._no_utterance(None, 0))
+        return scores[0] if len(scores) == 1 else in_sequence(scores, BETWEEN_UTTERANCES_S)
+
+    def check(self, dominant: Side = Side.RIGHT) -> tuple[Diagnostic, ...]:
+        """Return all that is wrong with the text, its rules that nobody calls included.
+
+        `dominant` is the hand for which orientations that exclude each other are looked for.
+        """
+        scores, diagnostics = self._evaluated
+        audited = [
+            problem
+            for utterance in scores
+            if utterance is not None
+            for problem in audit(utterance.score, dominant, self._span_of, utterance.span)
+        ]
+        return _tidy((*diagnostics, *audited), self.source)
+
+    def evaluate(self, text: str, name: str = "<expression>") -> UtteranceScore:
+        """Evaluate one expression that sees the rules of the text.
+
+        Raises: AZeeError: all that is wrong with the expression, or with rules it reaches.
+        """
+        source = Source(name, text)
+        expr, diagnostics = parse_expression(source)
+        found = list(diagnostics)
+        result = None
+        if expr is not None:
+            result = self._utterance(expr, found)
+            found += self._rule_diagnostics()
+        if result is not None and not found:
+            found += audit(result.score, Side.RIGHT, self._span_of, result.span)
+        tidy = _tidy(found, source)
+        self._require_sound(tidy)
+        if result is None:
+            raise AZeeError(*tidy)
+        return result
+
+    @cached_property
+    def _evaluated(self) -> tuple[tuple[UtteranceScore | None, ...], tuple[Diagnostic, ...]]:
+        diagnostics = list(self.found)
+        for rule in self._own_rules():
+            _ = rule.procedure
+        scores = tuple(self._utterance(item.expr, diagnostics) for item in self._items())
+        diagnostics += self._rule_diagnostics()
+        return scores, tuple(diagnostics)
+
+    def _items(self) -> Iterator[Utterance]:
+        if own_name(self.file) is None:
+            yield from (item for item in self.file.items if isinstance(item, Utterance))
+
+    def _own_rules(self) -> Iterator[Rule]:
+        for namespace in (self.scope.own, *(x.namespace for x in self.librarian.libraries)):
+            yield from namespace.rules.values()
+
+    def _rule_diagnostics(self) -> Iterator[Diagnostic]:
+        """Yield what is wrong with rules, those that ship included if they were reached."""
+        for rule in self._own_rules():
+            yield from rule.diagnostics
+        for namespace in (self.scope.core, *self.scope.libraries):
+            for rule in namespace.rules.values():
+                yield from rule.diagnostics
+
+    def _utterance(self, expr: Expr, diagnostics: list[Diagnostic]) -> UtteranceScore | None:
+        code = self.resolving.resolver(self.scope, None, diagnostics).resolve(expr, frozenset())
+        machine = Machine(self.limits)
+        try:
+            value = code.evaluate(machine, {})
+        except Fault as problem:
+            diagnostics += problem.diagnostics
+            return None
+        if isinstance(value, ScoreValue):
+            return UtteranceScore(_label(expr), value.content, expr.span)
+        diagnostics.append(_not_a_score(value, expr))
+        return None
+
+    def _span_of(self, origin: Origin) -> Span | None:
+        return self.resolving.spans.get(origin) or SHIPPED_RESOLVING.spans.get(origin)
+
+    def _require_sound(self, diagnostics: Sequence[Diagnostic]) -> None:
+        errors = [d for d in diagnostics if d.severity is Severity.ERROR]
+        if errors:
+            raise AZeeError(*errors)
+
+    def _no_utterance(self, wanted: int | None, count: int) -> Diagnostic:
+        if wanted is None:
+            message = f"`{self.source.name}` has no utterance, only definitions"
+            hint = "an utterance is an expression without indentation, such as `:arbre`"
+            if not self.file.items:
+                message = f"`{self.source.name}` has no utterance: it is empty"
+        else:
+            message = f"`{self.source.name}` has no utterance {wanted}"
+            hint = f"it has {count}" if count else "it has only definitions"
+        return Diagnostic("no-utterance", message, None, help=hint)
+
+
+def load(
+    source: Source, libraries: Sequence[Path] = (), limits: Limits = DEFAULT_LIMITS
+) -> Program:
+    """Read a text and the libraries it uses; nothing is evaluated yet.
+
+    `libraries` are folders in which `use` looks, after the folder of the text. What is wrong
+    shows in `Program.check`.
+    """
+    parsed = parse(source)
+    resolving = Resolving(Machine(limits))
+    core = shipped_library(CORE).namespace
+    librarian = Librarian(tuple(libraries), resolving, core)
+    namespace = Namespace(None)
+    path = Path(source.name)
+    folder = path.parent if path.is_file() else None
+    scope, problems = librarian.scope(namespace, parsed.file, folder)
+    duplicates = define(namespace, definitions(parsed.file), scope, resolving)
+    found = (*parsed.diagnostics, *problems, *duplicates)
+    in_libraries = tuple(d for library in librarian.libraries for d in library.diagnostics)
+    return Program(
+        source, parsed.file, scope, librarian, resolving, limits, (*found, *in_libraries)
+    )
+
+
+def evaluate_expression(
+    text: str, libraries: Sequence[Path] = (), name: str = "<expression>"
+) -> UtteranceScore:
+    """Evaluate one expression that sees the core and the default library.
+
+    Raises: AZeeError: all that is wrong with it.
+    """
+    return load(Source("<none>", ""), libraries).evaluate(text, name)
+
+
+def _label(expr: Expr) -> str:
+    """Return what an utterance is called in pictures and reports."""
+    if isinstance(expr, Application):
+        head = expr.head
+        return f":{head.name}" if isinstance(head, RuleName) else head.name
+    return expr.span.text.split("\n")[0][:40]
+
+
+def _not_a_score(value: Value, expr: Expr) -> Diagnostic:
+    hints = {
+        Kind.CONSTRAINTS: "`key D CSTR` makes a score of them",
+        Kind.OPERATOR: "`:name` applies a rule, `.name` only hands it over",
+        Kind.LIST: "`seq` plays a list of scores",
+    }
+    span = expr.head.span if isinstance(expr, Application) else expr.span
+    message = f"an utterance is a score, and this is {value.kind.value}"
+    return Diagnostic("not-a-score", message, span, help=hints.get(value.kind))
+
+
+def _tidy(diagnostics: Iterable[Diagnostic], first: Source) -> tuple[Diagnostic, ...]:
+    """Drop repetitions, shorten long call stacks, and sort by place, the text itself first."""
+    distinct: dict[tuple[str, str, Span | None], Diagnostic] = {}
+    for diagnostic in diagnostics:
+        key = (diagnostic.code, diagnostic.message, diagnostic.span)
+        distinct.setdefault(key, _shortened(diagnostic))
+    return tuple(sorted(distinct.values(), key=lambda d: _place(d, first)))
+
+
+def _place(diagnostic: Diagnostic, first: Source) -> tuple[bool, str, int]:
+    span = diagnostic.span
+    if span is None:
+        return (False, "", 0)
+    return (span.source.name != first.name, span.source.name, span.start)
+
+
+def _shortened(diagnostic: Diagnostic) -> Diagnostic:
+    calls = diagnostic.related
+    if len(calls) <= _MOST_CALLS:
+        return diagnostic
+    half = _MOST_CALLS // 2
+    note = f"{len(calls) - _MOST_CALLS} more calls in between are left out"
+    return replace(
+        diagnostic,
+        related=(*calls[:half], *calls[-half:]),
+        notes=(*diagnostic.notes, note),
+    )

@@ -1,0 +1,164 @@
+"""Other sides for what a score says: the mirror image, and another dominant hand.
+
+A mirror image is what one sees in a mirror whose plane stands between left and right: sides
+change, x changes its sign, and rotations their sense. With M the reflection,
+M(a × b) = −(Ma × Mb), and a rotation about `a` by φ becomes one about Ma by −φ.
+"""
+
+from __future__ import annotations
+
+import re
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any
+
+from azee.score.score import Group, Key, Score
+from azee_grammar import vocabulary
+from azee_solver.constraint import Constraint, Morph, Origin, Rotate
+from azee_solver.geometry import (
+    Cross,
+    FreePoint,
+    NamedPoint,
+    Rotated,
+    Side,
+    SigningSpace,
+    Vec,
+)
+
+
+class NoMirrorImage(Exception):  # noqa: N818 - what it says is a fact about a morph
+    """A morph of one side that the other side lacks."""
+
+
+class Change(ABC):
+    """A change of sides, applied to everything in a score."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def side(self, side: Side) -> Side:
+        """Return what becomes of a side."""
+
+    @abstractmethod
+    def place(self, place: SigningSpace) -> SigningSpace:
+        """Return what becomes of a named place."""
+
+    def score(self, score: Score) -> Score:
+        """Return the score with every side changed; times stay."""
+        if isinstance(score, Key):
+            return replace(score, constraints=tuple(self.constraint(c) for c in score.constraints))
+        if isinstance(score, Group):
+            blocks = tuple(replace(b, score=self.score(b.score)) for b in score.blocks)
+            return replace(score, blocks=blocks)
+        return score
+
+    def constraint(self, constraint: Constraint) -> Constraint:
+        """Return the constraint with every side changed."""
+        changed: Constraint = self.rebuilt(constraint)
+        return changed
+
+    def node(self, node: Any) -> Any:
+        """Return a part of a constraint changed: geometry, bones, sites, sides."""
+        if isinstance(node, Side):
+            return self.side(node)
+        if isinstance(node, NamedPoint):
+            return NamedPoint(self.place(node.place))
+        if isinstance(node, tuple):
+            return tuple(self.node(part) for part in node)
+        if is_dataclass(node) and not isinstance(node, Origin):
+            return self.rebuilt(node)
+        return node
+
+    def rebuilt(self, node: Any) -> Any:
+        """Return a node of the same class with all its parts changed."""
+        return replace(node, **{f.name: self.node(getattr(node, f.name)) for f in fields(node)})
+
+
+_SWAPPED_PLACES = {
+    SigningSpace.RSSP: SigningSpace.LSSP,
+    SigningSpace.LSSP: SigningSpace.RSSP,
+    SigningSpace.SSSP: SigningSpace.WSSP,
+    SigningSpace.WSSP: SigningSpace.SSSP,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Mirror(Change):
+    """The mirror image. Applied twice it changes nothing."""
+
+    def side(self, side: Side) -> Side:
+        """Return the other side of the same kind."""
+        return side.opposite
+
+    def place(self, place: SigningSpace) -> SigningSpace:
+        """Return the place on the other side."""
+        return _SWAPPED_PLACES.get(place, place)
+
+    def constraint(self, constraint: Constraint) -> Constraint:
+        """Return the mirror image; rotations change their sense."""
+        if isinstance(constraint, Morph) and constraint.side is None:
+            return replace(constraint, name=_other_morph(constraint.name))
+        changed: Constraint = self.rebuilt(constraint)
+        if isinstance(changed, Rotate):
+            return replace(changed, angle_rad=-changed.angle_rad)
+        return changed
+
+    def node(self, node: Any) -> Any:
+        """Return the mirror image of a part."""
+        match node:
+            case Vec(x=x):
+                return replace(node, x=-x if x else x)
+            case FreePoint(x=x):
+                return replace(node, x=-x if x else x)
+            case Cross(left=left, right=right):
+                return Cross(self.node(right), self.node(left))
+            case Rotated(angle_rad=angle):
+                return replace(self.rebuilt(node), angle_rad=-angle)
+            case _:
+                return Change.node(self, node)
+
+
+MIRROR = Mirror()
+
+_SUFFIXED = re.compile(r"(.+)_([LR])", re.ASCII)
+
+
+def _other_morph(name: str) -> str:
+    """Return the morph of the other side, for names that say their side themselves."""
+    found = _SUFFIXED.fullmatch(name)
+    other = f"{found[1]}_{'R' if found[2] == 'L' else 'L'}" if found else name
+    if other in vocabulary.MORPHS and not (other == name == "palm_l_closed"):
+        return other
+    raise NoMirrorImage(f"the morph `'{name}` has no mirror image")
+
+
+@dataclass(frozen=True, slots=True)
+class WithDominant(Change):
+    """Strong means one given side. Places on the strong and on the weak side follow."""
+
+    strong: Side
+
+    def side(self, side: Side) -> Side:
+        """Return the side that strong and weak now mean; left and right stay."""
+        if side is Side.STRONG:
+            return self.strong
+        return self.strong.opposite if side is Side.WEAK else side
+
+    def place(self, place: SigningSpace) -> SigningSpace:
+        """Return the place that the strong or the weak side's place now is."""
+        if place is SigningSpace.SSSP:
+            return _PLACES[self.strong]
+        return _PLACES[self.strong.opposite] if place is SigningSpace.WSSP else place
+
+
+_PLACES = {
+    Side.STRONG: SigningSpace.SSSP,
+    Side.WEAK: SigningSpace.WSSP,
+    Side.LEFT: SigningSpace.LSSP,
+    Side.RIGHT: SigningSpace.RSSP,
+}
+
+
+def with_dominant(strong: Side) -> WithDominant:
+    """Return the change after which strong means `strong`."""
+    return WithDominant(strong)

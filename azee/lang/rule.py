@@ -1,0 +1,97 @@
+"""Production rules as defined in a text, with the scope they were defined in."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from azee.lang.azop import shape_of
+from azee.lang.code import Broken
+from azee.lang.procedure import Procedure
+from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.syntax import Application, Definition, Expr, OperatorName
+
+if TYPE_CHECKING:
+    from azee.lang.resolve import Resolving
+    from azee.lang.scope import Scope
+
+
+@dataclass(eq=False)
+class Rule:
+    """A definition and where it stands; resolved when it is first needed.
+
+    `library` is the name of the library it ships in, None for a rule of the text itself.
+    """
+
+    definition: Definition
+    library: str | None
+    scope: Scope
+    resolving: Resolving
+    _diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """The name it is applied by."""
+        return self.definition.name
+
+    @property
+    def title(self) -> str:
+        """What messages call it."""
+        return f"`:{self.name}`"
+
+    def entry(self, name: str) -> str | None:
+        """Return the text of an entry such as `'meaning`."""
+        for symbol, text in self.definition.entries:
+            if symbol.name == name:
+                return text.text
+        return None
+
+    @cached_property
+    def parameters(self) -> Sequence[tuple[str, bool]]:
+        """Names of the parameters in order, and whether each must be given."""
+        return [(p.name, p.default is None) for p in self.defaults]
+
+    @cached_property
+    def defaults(self) -> tuple[FormalDefault, ...]:
+        """Parameters with the text of their defaults."""
+        body = self.definition.body
+        if not is_azop(body):
+            return ()
+        assert isinstance(body, Application)
+        seen: dict[str, FormalDefault] = {}
+        for name, default in shape_of(body).parameters:
+            seen.setdefault(name.name, FormalDefault(name.name, default))
+        return tuple(seen.values())
+
+    @cached_property
+    def procedure(self) -> Procedure:
+        """The resolved body. What is wrong with it is added to `diagnostics`."""
+        body = self.definition.body
+        if body is None:
+            return Procedure(self.name, (), Broken(self.definition.span), {})
+        resolver = self.resolving.resolver(self.scope, self.name, self._diagnostics)
+        if is_azop(body):
+            assert isinstance(body, Application)
+            parameters, code = resolver.azop(body, frozenset())
+            return Procedure(self.name, parameters, code, {})
+        return Procedure(self.name, (), resolver.resolve(body, frozenset()), {})
+
+    @property
+    def diagnostics(self) -> Sequence[Diagnostic]:
+        """What is wrong with the definition, as far as it has been resolved."""
+        return self._diagnostics
+
+
+@dataclass(frozen=True, slots=True)
+class FormalDefault:
+    """A parameter as it is written; without a default it is mandatory."""
+
+    name: str
+    default: Expr | None
+
+
+def is_azop(body: Expr | None) -> bool:
+    """Whether a body declares parameters."""
+    return isinstance(body, Application) and body.head == OperatorName(body.head.span, "azop")

@@ -1,0 +1,65 @@
+"""Which rule a name means, from where it is used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from azee.lang.rule import Rule
+
+
+@dataclass(eq=False)
+class Namespace:
+    """The rules of one text or one library, by name.
+
+    `name` is None for the text itself.
+    """
+
+    name: str | None
+    rules: dict[str, Rule] = field(default_factory=dict)
+
+
+class AmbiguousRule(Exception):  # noqa: N818 - not an error of ours: the caller reports it
+    """A name that several libraries define, with their rules."""
+
+    def __init__(self, rules: tuple[Rule, ...]) -> None:
+        super().__init__(rules[0].name)
+        self.rules = rules
+
+
+@dataclass(eq=False)
+class Scope:
+    """The namespaces that are visible in a text: its own, those it uses, then the core.
+
+    `libraries` is filled after its rules are made, since libraries may use each other.
+    """
+
+    own: Namespace
+    core: Namespace
+    libraries: list[Namespace] = field(default_factory=list)
+
+    def find(self, name: str) -> Rule | None:
+        """Return the rule that a name means here.
+
+        Raises: AmbiguousRule: two libraries in use define it, and the text itself does not.
+        """
+        if name in self.own.rules:
+            return self.own.rules[name]
+        found = tuple(library.rules[name] for library in self._used() if name in library.rules)
+        if len(found) > 1:
+            raise AmbiguousRule(found)
+        return found[0] if found else self.core.rules.get(name)
+
+    def _used(self) -> Iterator[Namespace]:
+        for library in dict.fromkeys(self.libraries):
+            if library is not self.own and library is not self.core:
+                yield library
+
+    def names(self) -> tuple[str, ...]:
+        """Return all names that mean something here."""
+        visible: Mapping[str, None] = dict.fromkeys(
+            name for space in (self.own, *self._used(), self.core) for name in space.rules
+        )
+        return tuple(visible)

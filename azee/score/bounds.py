@@ -1,0 +1,179 @@
+"""When the blocks of a `sync` start and end, from bounds that name each other.
+
+The dependency graph is over bounds, not blocks: `A` may start with `B` while `B` ends with `A`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from azee.score.error import LayoutError
+from azee.score.interval import Interval
+from azee.score.moment import Bound, Moment, decimal
+from azee.score.score import Group, Score
+from azee.score.stretch import stretched
+
+
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """Where a block stands: its start, its end, its length; what is not said is natural.
+
+    With both bounds, or with a length, the block is stretched. With nothing it starts at zero.
+    """
+
+    start: Moment | None = None
+    end: Moment | None = None
+    duration_s: Fraction | None = None
+
+    def __post_init__(self) -> None:
+        if self.start is not None and self.end is not None and self.duration_s is not None:
+            raise ValueError("two bounds and a length say too much")
+
+    @classmethod
+    def within(cls, block: tuple[str, ...]) -> Placement:
+        """Return the bounds of another block."""
+        return cls(Moment(block, Bound.START), Moment(block, Bound.END))
+
+
+_Node = tuple[int, Bound]
+"""A bound of the block with that number."""
+
+
+class Bounds:
+    """The bounds of named blocks, computed on demand and each once."""
+
+    def __init__(
+        self, names: Sequence[str], scores: Sequence[Score], placements: Sequence[Placement]
+    ) -> None:
+        self._names = names
+        self._scores = scores
+        self._placements = placements
+        self._number = {name: i for i, name in enumerate(names)}
+        self._known: dict[_Node, Fraction] = {}
+        self._fitted: dict[int, Score] = {}
+
+    def interval(self, block: int) -> Interval:
+        """Return when a block lasts, on the time line on which the first block starts at zero."""
+        start = self._bound((block, Bound.START))
+        end = self._bound((block, Bound.END))
+        if end < start:
+            raise LayoutError(
+                "negative-duration",
+                f"`{self._names[block]}` would end {decimal(start - end)} s before it starts",
+                block,
+            )
+        return Interval(start, end)
+
+    def score(self, block: int) -> Score:
+        """Return a block's score at the length that its bounds leave it."""
+        if block not in self._fitted:
+            duration_s = self.interval(block).duration
+            try:
+                self._fitted[block] = stretched(self._scores[block], duration_s)
+            except LayoutError as error:
+                message = f"`{self._names[block]}` {error}"
+                raise LayoutError(error.code, message, block) from None
+        return self._fitted[block]
+
+    def _bound(self, wanted: _Node) -> Fraction:
+        """Depth-first over what a bound depends on, with a stack of our own: chains are long."""
+        pending = [wanted]
+        waiting: dict[_Node, None] = {}
+        while pending:
+            node = pending[-1]
+            if node in self._known:
+                pending.pop()
+                continue
+            open_nodes = [n for n in self._needed(node) if n not in self._known]
+            if not open_nodes:
+                self._known[node] = self._computed(node)
+                waiting.pop(node, None)
+                pending.pop()
+                continue
+            waiting[node] = None
+            for needed in open_nodes:
+                if needed in waiting:
+                    raise self._circle([*waiting], needed)
+            pending.extend(open_nodes)
+        return self._known[wanted]
+
+    def _needed(self, node: _Node) -> tuple[_Node, ...]:
+        block, bound = node
+        moment = self._moment(node)
+        if moment is None:
+            other = (block, Bound.END if bound is Bound.START else Bound.START)
+            return () if self._stands_at_zero(node) else (other,)
+        target = self._target(moment, block)
+        if len(moment.path) == 1 and isinstance(moment.anchor, Bound):
+            return ((target, moment.anchor),)
+        return ((target, Bound.START), (target, Bound.END))
+
+    def _computed(self, node: _Node) -> Fraction:
+        block, bound = node
+        moment = self._moment(node)
+        if moment is not None:
+            return self._time(moment, block)
+        if self._stands_at_zero(node):
+            return Fraction(0)
+        duration_s = self._placements[block].duration_s
+        if duration_s is None:
+            duration_s = self._scores[block].duration
+        if bound is Bound.END:
+            return self._known[block, Bound.START] + duration_s
+        return self._known[block, Bound.END] - duration_s
+
+    def _moment(self, node: _Node) -> Moment | None:
+        placement = self._placements[node[0]]
+        return placement.start if node[1] is Bound.START else placement.end
+
+    def _stands_at_zero(self, node: _Node) -> bool:
+        return node[1] is Bound.START and self._placements[node[0]].end is None
+
+    def _target(self, moment: Moment, block: int) -> int:
+        try:
+            return self._number[moment.path[0]]
+        except KeyError:
+            message = f"there is no block `{moment.path[0]}`"
+            raise LayoutError("unknown-block", message, block, tuple(self._names)) from None
+
+    def _time(self, moment: Moment, block: int) -> Fraction:
+        target = self._target(moment, block)
+        if len(moment.path) == 1 and isinstance(moment.anchor, Bound):
+            return self._known[target, moment.anchor] + moment.offset_s
+        interval = self.interval(target)
+        if len(moment.path) > 1:
+            interval = self._inner(moment, self.score(target), interval.start, block)
+        if moment.anchor is Bound.START:
+            time = interval.start
+        elif moment.anchor is Bound.END:
+            time = interval.end
+        else:
+            time = interval.start + interval.duration * moment.anchor
+        return time + moment.offset_s
+
+    def _inner(self, moment: Moment, score: Score, start: Fraction, block: int) -> Interval:
+        """Return when a block inside lasts, on the time line of the whole `sync`."""
+        outer = moment.path[0]
+        interval = Interval(start, start + score.duration)
+        for name in moment.path[1:]:
+            if not isinstance(score, Group):
+                message = f"`{outer}` has no blocks inside, so there is no `{outer}/{name}`"
+                raise LayoutError("unknown-block", message, block)
+            try:
+                inner = score.block(name)
+            except KeyError:
+                known = tuple(b.name for b in score.blocks)
+                message = f"there is no block `{name}` inside `{outer}`"
+                raise LayoutError("unknown-block", message, block, known) from None
+            outer = f"{outer}/{name}"
+            interval = inner.interval_in_parent.shifted(interval.start)
+            score = inner.score
+        return interval
+
+    def _circle(self, waiting: list[_Node], node: _Node) -> LayoutError:
+        circle = [*waiting[waiting.index(node) :], node]
+        steps = " needs ".join(f"`{self._names[b]}:{bound.value}`" for b, bound in circle)
+        message = f"these bounds wait for each other: {steps}"
+        return LayoutError("cyclic-sync", message, min(b for b, _ in circle))

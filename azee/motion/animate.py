@@ -9,7 +9,6 @@ from fractions import Fraction
 from typing import Literal
 
 import numpy as np
-from azee_solver.solve import SolveReport, solve
 from numpy.typing import NDArray
 
 from azee.motion.bound import Bound, bind
@@ -30,6 +29,8 @@ from azee_rig.rig import Rig
 from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
+from azee_solver.report import SolveReport
+from azee_solver.solve import solve
 
 Array = NDArray[np.float64]
 

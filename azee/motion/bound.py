@@ -9,6 +9,7 @@ from functools import cached_property
 from azee.motion.flatten import Timeline
 from azee.motion.limbs import Limbs, channel_of_constraint
 from azee.motion.requirement import Requirement
+from azee.motion.spans import Spans
 from azee.motion.spline import minimum_jerk
 from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
@@ -66,6 +67,16 @@ class BoundScore:
     paths: tuple[Bound, ...]
     trills: tuple[Bound, ...]
     faces: tuple[Bound, ...]
+
+    @cached_property
+    def in_force(self) -> Spans[Bound]:
+        """The requirements that the solver meets, by when they hold."""
+        return Spans((b.requirement.interval, b) for b in self.postures)
+
+    @cached_property
+    def paths_at(self) -> Spans[Bound]:
+        """The transpaths, by when they hold."""
+        return Spans((b.requirement.interval, b) for b in self.paths)
 
     @property
     def moving(self) -> tuple[Bound, ...]:

@@ -71,11 +71,13 @@ class LimbTrack:
         return self.keys[-1].time_s if self.keys else 0.0
 
     def sample(self, times_s: Array) -> Array:
-        """Return the limb's coordinates at times, (T, n); limits are the caller's."""
+        """Return the limb's coordinates at increasing times, (T, n); limits are the caller's."""
         out = np.broadcast_to(self.rest, (len(times_s), len(self.rest))).copy()
         stops = [i for i, key in enumerate(self.keys) if not key.passing]
         for first, last in pairwise(stops):
-            _run(self.keys[first : last + 1], times_s, out)
+            run = self.keys[first : last + 1]
+            if run[0].time_s <= times_s[-1] and times_s[0] <= run[-1].time_s:
+                _run(run, times_s, out)
         return out
 
 
@@ -109,9 +111,11 @@ def _stopping_before_rests(keys: list[LimbKey]) -> list[LimbKey]:
 def _run(keys: Sequence[LimbKey], times_s: Array, out: Array) -> None:
     """Fill in the frames from one stop to the next."""
     start, end = keys[0].time_s, keys[-1].time_s
-    inside = np.flatnonzero((times_s >= start) & (times_s <= end))
-    if not len(inside):
+    first = int(np.searchsorted(times_s, start, side="left"))
+    last = int(np.searchsorted(times_s, end, side="right"))
+    if first == last:
         return
+    inside = slice(first, last)
     if end <= start:
         out[inside] = keys[-1].values
         return

@@ -47,7 +47,7 @@ def face_weights(
     dominant: Side,
     times_s: Array,
 ) -> Array:
-    """Return the weights of face units at times, (T, len(units)).
+    """Return the weights of face units at increasing times, (T, len(units)).
 
     Args: morphs: weight that a morph of weight 1 gives each unit, as a rig has it.
     """
@@ -71,11 +71,14 @@ def face_weights(
 
 
 def weight_curve(blocks: Iterable[Plateau], times_s: Array) -> Array:
-    """Return a morph's weight at times, (T,)."""
+    """Return a morph's weight at increasing times, (T,)."""
     out = np.zeros(len(times_s))
     for chain in _chains(blocks):
-        curve = _chain_curve(chain, times_s)
-        out = np.where(np.abs(curve) > np.abs(out), curve, out)
+        first, last = float(chain[0].start) - RAMP_S, float(chain[-1].end) + RAMP_S
+        ends = np.searchsorted(times_s, (first, last))
+        rows = slice(int(ends[0]), int(ends[1]))
+        curve = _chain_curve(chain, times_s[rows])
+        out[rows] = np.where(np.abs(curve) > np.abs(out[rows]), curve, out[rows])
     return out
 
 
@@ -123,6 +126,7 @@ def busy(faces: Iterable[Bound], times_s: Array) -> NDArray[np.bool_]:
     out = np.zeros(len(times_s), dtype=np.bool_)
     for b in faces:
         interval = b.requirement.interval
-        first, last = float(interval.start) - RAMP_S, float(interval.end) + RAMP_S
-        out |= (times_s >= first) & (times_s <= last)
+        ends = (float(interval.start) - RAMP_S, float(interval.end) + RAMP_S)
+        first, last = np.searchsorted(times_s, ends)
+        out[first:last] = True
     return out

@@ -12,11 +12,13 @@ the instant belongs to the opening blocks and the closing block's end key moves 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import TypeAlias
 
 from azee.motion.requirement import Requirement
+from azee.motion.spans import Spans
 from azee.score.score import Block, Group, Hold, Key, Leaf, Score, leaves
 from azee_solver.constraint import Transpath, Trill
 
@@ -54,17 +56,26 @@ def flatten(score: Score) -> Timeline:
     Raises: ValueError: a hold names no sibling block, or blocks hold each other in a circle.
     """
     found = [*leaves(score)]
+    inside: dict[tuple[str, ...], list[Leaf]] = {}
+    for leaf in found:
+        for depth in range(len(leaf.path) + 1):
+            inside.setdefault(leaf.path[:depth], []).append(leaf)
     required: list[Requirement] = []
     for leaf in found:
-        for requirement in _required(leaf, found, ()):
+        for requirement in _required(leaf, inside, ()):
             required.append(replace(requirement, rank=len(required)))
     times = sorted({t for leaf in found for t in (leaf.interval.start, leaf.interval.end)})
-    keyframes = tuple(Keyframe(t, tuple(r for r in required if r.covers(t))) for t in times)
+    spans = Spans((r.interval, r) for r in required)
+    keyframes = tuple(Keyframe(t, tuple(spans.at(t))) for t in times)
     return Timeline(score.duration, tuple(required), keyframes)
 
 
+_Inside: TypeAlias = Mapping[tuple[str, ...], Sequence[Leaf]]
+"""Leaves by every path that leads to them."""
+
+
 def _required(
-    leaf: Leaf, found: list[Leaf], holding: tuple[tuple[str, ...], ...]
+    leaf: Leaf, inside: _Inside, holding: tuple[tuple[str, ...], ...]
 ) -> Iterator[Requirement]:
     match leaf.score:
         case Key(constraints=constraints):
@@ -73,13 +84,13 @@ def _required(
                     constraint, leaf.path, _rule(leaf), leaf.interval, leaf.interval, rank=0
                 )
         case Hold():
-            yield from _held(leaf, leaf.score, found, holding)
+            yield from _held(leaf, leaf.score, inside, holding)
         case _:
             pass
 
 
 def _held(
-    leaf: Leaf, hold: Hold, found: list[Leaf], holding: tuple[tuple[str, ...], ...]
+    leaf: Leaf, hold: Hold, inside: _Inside, holding: tuple[tuple[str, ...], ...]
 ) -> Iterator[Requirement]:
     """Extend what the held block's leaves that last until its end require.
 
@@ -88,12 +99,11 @@ def _held(
     if leaf.path in holding:
         raise ValueError(f"blocks hold each other in a circle: {'/'.join(leaf.path)}")
     block, start = _sibling(leaf, hold)
-    prefix = (*leaf.path[:-1], block.name)
     end = start + block.interval_in_parent.end
-    for other in found:
-        if other.path[: len(prefix)] != prefix or other.interval.end != end:
+    for other in inside.get((*leaf.path[:-1], block.name), ()):
+        if other.interval.end != end:
             continue
-        for requirement in _required(other, found, (*holding, leaf.path)):
+        for requirement in _required(other, inside, (*holding, leaf.path)):
             if not isinstance(requirement.constraint, Trill | Transpath):
                 yield replace(
                     requirement,

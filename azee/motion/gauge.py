@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.bound import Bound
+from azee.motion.bound import Bound, BoundScore
 from azee.motion.keyframes import GivingWay
 from azee.motion.movement import Movement
 from azee.motion.transpath import Course
@@ -20,7 +21,6 @@ from azee_solver.constraint import Constraint, Morph, Place, Transpath
 from azee_solver.evaluate import Evaluator, LengthOrAngle
 
 Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 TOLERANCE = {"m": 1e-3, "rad": math.radians(0.5)}
 PATH_TOLERANCE_M = 2e-3
@@ -40,15 +40,10 @@ class Instants:
         """The times as numbers, (T,)."""
         return np.array([float(t) for t in self.times])
 
-    def only(self, indices: Indices) -> Instants:
+    def only(self, rows: slice) -> Instants:
         """Return some of the instants."""
-        if len(indices) == len(self.times):
-            return self
-        return Instants(
-            tuple(self.times[i] for i in indices),
-            self.q[indices],
-            Frames(self.frames.positions[indices], self.frames.rotations[indices]),
-        )
+        frames = Frames(self.frames.positions[rows], self.frames.rotations[rows])
+        return Instants(self.times[rows], self.q[rows], frames)
 
 
 def instants(movement: Movement, times: Iterable[Fraction], evaluator: Evaluator) -> Instants:
@@ -62,13 +57,23 @@ def instants(movement: Movement, times: Iterable[Fraction], evaluator: Evaluator
 class Gauge:
     """What measures one score on one rig.
 
-    postures: the requirements that the solver meets. courses: by rank of their transpath.
+    courses: by rank of their transpath. giving_way: by rank of what gives way.
     """
 
     evaluator: Evaluator
-    postures: tuple[Bound, ...]
-    courses: dict[int, Course]
-    giving_way: dict[int, GivingWay]
+    score: BoundScore
+    courses: Mapping[int, Course]
+    giving_way: Mapping[int, GivingWay]
+
+    @property
+    def measurable(self) -> tuple[Bound, ...]:
+        """What a movement can be measured against."""
+        return (*self.score.postures, *(c.travel.bound for c in self.courses.values()))
+
+    def steering(self, time: Fraction) -> list[Course]:
+        """Return the courses on which a site is at an instant."""
+        found = (self.courses.get(b.requirement.rank) for b in self.score.paths_at.at(time))
+        return [c for c in found if c is not None and c.travel.steers(time)]
 
     def tolerance(self, bound: Bound) -> float:
         """Largest residual that counts as met, metres or radians."""
@@ -81,8 +86,8 @@ class Gauge:
         """Return the unit of a requirement's residual."""
         return unit_of(bound.constraint)
 
-    def inside(self, bound: Bound, seconds: Array, *, enforced: bool = False) -> Indices:
-        """Return indices of instants inside a block, both ends included.
+    def inside(self, bound: Bound, seconds: Array, *, enforced: bool = False) -> slice:
+        """Return which of increasing instants are inside a block, both ends included.
 
         Args: enforced: stop where the block gives way to another.
         """
@@ -91,13 +96,13 @@ class Gauge:
         if r.rank in self.courses:
             travel = self.courses[r.rank].travel
             first, last = float(travel.start), float(travel.end)
+        last += _SAME_S
         given = self.giving_way.get(r.rank)
         if given is not None:
-            if enforced:
-                last = float(given.start)
-            else:  # the end itself is the other block's
-                return np.flatnonzero((seconds >= first - _SAME_S) & (seconds < last - _SAME_S))
-        return np.flatnonzero((seconds >= first - _SAME_S) & (seconds <= last + _SAME_S))
+            # The end itself is the other block's.
+            last = float(given.start) + _SAME_S if enforced else last - 2 * _SAME_S
+        rows = np.searchsorted(seconds, (first - _SAME_S, last))
+        return slice(int(rows[0]), max(int(rows[0]), int(rows[1])))
 
     def residual(self, bound: Bound, at: Instants) -> Array:
         """How far a requirement is from being met at instants inside its block, (T,)."""
@@ -111,11 +116,10 @@ class Gauge:
         if not isinstance(bound.constraint, Morph):
             return self.evaluator.residual(bound.constraint, at.frames, at.q)[0]
         out = np.empty(len(at.times))
-        for among, indices in self._morphs(bound, at):
-            part = at.only(indices)
-            out[indices] = self.evaluator.residual(
-                bound.constraint, part.frames, part.q, among=among
-            )[0]
+        for among, rows in self._morphs(bound, at):
+            part = at.only(rows)
+            value = self.evaluator.residual(bound.constraint, part.frames, part.q, among=among)
+            out[rows] = value[0]
         return out
 
     def _dynamic(self, bound: Bound, at: Instants) -> Array:
@@ -128,20 +132,19 @@ class Gauge:
             out[i] = float(value)
         return out
 
-    def _morphs(self, bound: Bound, at: Instants) -> Iterable[tuple[Sequence[Constraint], Indices]]:
+    def _morphs(self, bound: Bound, at: Instants) -> Iterator[tuple[Sequence[Constraint], slice]]:
         """Yield the skeletal morphs in force together with one, for they add, and when."""
-        others = [
-            b for b in self.postures if isinstance(b.constraint, Morph) and b.moves & bound.moves
-        ]
-        rows = [
-            np.isin(np.arange(len(at.times)), self.inside(b, at.seconds, enforced=True))
-            for b in others
-        ]
-        together = np.stack(rows)
-        for pattern in np.unique(together, axis=1).T:
-            indices = np.flatnonzero(np.all(together == pattern[:, None], axis=0))
-            forces = [b.constraint for b, on in zip(others, pattern, strict=True) if on]
-            yield [*dict.fromkeys([bound.constraint, *forces])], indices
+        near = self.score.in_force.meeting(bound.requirement.interval)
+        others = [b for b in near if isinstance(b.constraint, Morph) and b.moves & bound.moves]
+        parts = [self.inside(b, at.seconds, enforced=True) for b in others]
+        cuts = sorted({0, len(at.times), *(i for p in parts for i in (p.start, p.stop))})
+        for first, last in pairwise(cuts):
+            forces = [
+                b.constraint
+                for b, part in zip(others, parts, strict=True)
+                if part.start <= first and last <= part.stop
+            ]
+            yield [*dict.fromkeys([bound.constraint, *forces])], slice(first, last)
 
 
 _SAME_S = 1e-9

@@ -68,14 +68,22 @@ def breathing(
     """
     out = np.zeros((len(times_s), len(coordinates)))
     phase = rng.uniform(0.0, 2.0 * math.pi)
-    free = np.ones(len(times_s))
-    for b in required:
-        interval = b.requirement.interval
-        before = (float(interval.start) - times_s) / BREATH_FADE_S
-        after = (times_s - float(interval.end)) / BREATH_FADE_S
-        free = np.minimum(free, minimum_jerk(np.maximum(before, after)))
+    free = minimum_jerk(_away_s(required, times_s) / BREATH_FADE_S)
     wave = free * 0.5 * (1.0 - np.cos(2.0 * math.pi * times_s / BREATH_S + phase))
     for name, amplitude in BREATH_RAD.items():
         if name in coordinates.index:
             out[:, coordinates.index[name]] = amplitude * wave
     return out
+
+
+def _away_s(required: Iterable[Bound], times_s: Array) -> Array:
+    """Return how far in time the nearest block is, (T,) seconds; 0 inside one."""
+    spans = sorted((b.requirement.interval.start, b.requirement.interval.end) for b in required)
+    if not spans:
+        return np.full(len(times_s), math.inf)
+    starts = np.array([float(start) for start, _ in spans])
+    reached = np.maximum.accumulate(np.array([float(end) for _, end in spans]))
+    k = np.searchsorted(starts, times_s, side="right")
+    since = np.where(k > 0, times_s - reached[np.maximum(k, 1) - 1], math.inf)
+    until = np.where(k < len(starts), starts[np.minimum(k, len(starts) - 1)] - times_s, math.inf)
+    return np.asarray(np.maximum(0.0, np.minimum(since, until)))

@@ -9,7 +9,7 @@ tells of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -39,14 +39,10 @@ class Boundaries:
     giving_way: dict[int, GivingWay] = field(default_factory=dict)
 
 
-def active(bounds: Iterable[Bound], time: Fraction, giving: dict[int, GivingWay]) -> list[Bound]:
+def active(score: BoundScore, time: Fraction, giving: Mapping[int, GivingWay]) -> list[Bound]:
     """Return requirements in force at an instant, both ends included; what gave way is not."""
-    out = []
-    for b in bounds:
-        yielded = giving.get(b.requirement.rank)
-        if b.requirement.covers(time) and (yielded is None or time <= yielded.start):
-            out.append(b)
-    return out
+    given = ((b, giving.get(b.requirement.rank)) for b in score.in_force.at(time))
+    return [b for b, to in given if to is None or time <= to.start]
 
 
 def solve_boundaries(
@@ -57,7 +53,7 @@ def solve_boundaries(
     giving: dict[int, GivingWay] = {}
     for keyframe in score.timeline.keyframes:
         time = keyframe.time
-        bounds = active(score.postures, time, giving)
+        bounds = active(score, time, giving)
         if not bounds or time in deferred:
             continue
         opening = [b for b in bounds if b.requirement.starts_or_runs(time)]

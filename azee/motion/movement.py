@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from azee.motion.curves import LimbKey, LimbTrack, track
 from azee.motion.limbs import Limbs
 from azee.motion.posture import KeyPosture
+from azee.motion.spans import Spans
 from azee.score.interval import Interval
 from azee_rig.coordinates import Coordinates
 
@@ -27,7 +28,7 @@ class Movement:
     tracks: Mapping[str, LimbTrack]
 
     def sample(self, times_s: Array) -> Array:
-        """Return coordinates at times, (T, V) radians, inside the limits."""
+        """Return coordinates at increasing times, (T, V) radians, inside the limits."""
         out = np.empty((len(times_s), len(self.coordinates)))
         for limb, members in self.limbs.members.items():
             out[:, members] = self.tracks[limb].sample(times_s)
@@ -46,28 +47,24 @@ class Movement:
 
 def movement(
     postures: Sequence[KeyPosture],
-    holders: Iterable[tuple[frozenset[str], Interval]],
+    holders: Spans[frozenset[str]],
     coordinates: Coordinates,
     limbs: Limbs,
 ) -> Movement:
     """Join key postures, in order of time, limb by limb.
 
-    Args: holders: limbs that something needs all through an interval.
+    Args: holders: limbs that something needs, by when.
     """
-    holding: dict[str, list[Interval]] = {name: [] for name in limbs.names}
-    for needed, interval in holders:
-        for limb in needed:
-            holding[limb].append(interval)
     tracks = {}
     for limb, members in limbs.members.items():
         own = [p for p in postures if limb in p.limbs]
         held = [
-            any(i.start <= a.time and b.time <= i.end for i in holding[limb])
+            any(limb in needed for needed in holders.all_through(Interval(a.time, b.time)))
             for a, b in pairwise(own)
-        ] + [False]
+        ]
         keys = [
             LimbKey(float(p.time), p.coordinates[members], limb in p.passing, h)
-            for p, h in zip(own, held, strict=False)
+            for p, h in zip(own, [*held, False], strict=False)
         ]
         tracks[limb] = track(keys, coordinates.idle[members])
     return Movement(coordinates, limbs, tracks)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -10,16 +11,18 @@ import numpy as np
 
 from azee.motion.bound import Bound, BoundScore
 from azee.motion.gauge import Gauge
-from azee.motion.keyframes import solve_boundaries
+from azee.motion.keyframes import active, solve_boundaries
 from azee.motion.limbs import Limbs
 from azee.motion.movement import Movement
 from azee.motion.poser import Poser
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
 from azee.motion.refine import CLOSEST_S, Refinement
+from azee.motion.spans import Spans
 from azee.motion.transpath import (
-    Course,
-    course,
+    Travel,
+    by_time,
     course_samples,
+    courses,
     deferred,
     ends,
     moving_samples,
@@ -46,14 +49,21 @@ def plan(
     frame_times: Sequence[Fraction],
 ) -> Plan:
     """Solve all key postures of a score, so that its constraints hold at the given frames."""
-    known = travels(score.paths, score.postures, evaluator.binding.dominant)
+    known = travels(score, evaluator.binding.dominant)
+    at = by_time(known)
     later = deferred(known, (k.time for k in score.timeline.keyframes))
-    poser = Poser(evaluator.rig.coordinates, limbs, solver, known)
+    poser = Poser(evaluator.rig.coordinates, limbs, solver, at)
     first = solve_boundaries(score, poser, evaluator.binding, later)
-    gauge = Gauge(evaluator, score.postures, {}, first.giving_way)
-    work = _Work(Refinement(gauge, limbs, solver, known), list(first.postures))
+    holders: Spans[frozenset[str]] = Spans(
+        (
+            *((b.requirement.interval, b.limbs | b.read_limbs) for b in score.postures),
+            *((k.between, k.bound.limbs) for k in known),
+        )
+    )
+    gauge = Gauge(evaluator, score, {}, first.giving_way)
+    work = _Work(Refinement(gauge, limbs, solver, holders), known, at, list(first.postures))
     work.steer(later)
-    work.sample(b for b in score.postures if b.dynamic)
+    work.follow(b for b in score.postures if b.dynamic)
     postures = work.refinement.added(work.postures, frame_times)
     return Plan(tuple(postures), work.refinement.join(postures), work.refinement.gauge)
 
@@ -63,6 +73,8 @@ class _Work:
     """Key postures as they come together."""
 
     refinement: Refinement
+    travels: tuple[Travel, ...]
+    travels_at: Spans[Travel]
     postures: list[KeyPosture]
 
     def steer(self, later: Iterable[Fraction]) -> None:
@@ -71,15 +83,11 @@ class _Work:
         A placement that ends one path may lie on another: it was solved without that other path,
         whose ends were not known then, and is solved once more before the rest.
         """
-        if not self.refinement.travels:
+        if not self.travels:
             return
         base = self.refinement.join(self._unsteered())
         self._measure(base)
-        again = {
-            t
-            for t in ends(self.refinement.travels)
-            if any(k.steers(t) for k in self.refinement.travels)
-        }
+        again = {t for t in ends(self.travels) if self._steering(t)}
         if again:
             self.postures = [p for p in self.postures if p.time not in again]
             self._add(again, base, Origin.BOUNDARY)
@@ -92,7 +100,7 @@ class _Work:
             samples.update(course_samples(path, evaluator.rig.chain.frames(q), evaluator))
         self._add(self._apart(samples), base, Origin.PATH)
 
-    def sample(self, dynamic: Iterable[Bound]) -> None:
+    def follow(self, dynamic: Iterable[Bound]) -> None:
         """Follow points that move."""
         base = self.refinement.join(self.postures)
         evaluator = self.refinement.gauge.evaluator
@@ -102,30 +110,29 @@ class _Work:
             samples.update(moving_samples(b, evaluator.rig.chain.frames(q), evaluator))
         self._add(self._apart(samples), base, Origin.PATH)
 
+    def _steering(self, time: Fraction) -> list[Travel]:
+        return [k for k in self.travels_at.at(time) if k.steers(time)]
+
     def _unsteered(self) -> list[KeyPosture]:
         """Return key postures without what they say of limbs that should be on a path then."""
         out = []
         for p in self.postures:
-            steered = (k.bound.limbs for k in self.refinement.travels if k.steers(p.time))
+            steered = (k.bound.limbs for k in self._steering(p.time))
             out.append(replace(p, limbs=p.limbs.difference(*steered)))
         return out
 
     def _measure(self, base: Movement) -> None:
-        evaluator = self.refinement.gauge.evaluator
-        courses: dict[int, Course] = {
-            k.bound.requirement.rank: course(k, self.postures, base, evaluator)
-            for k in self.refinement.travels
-        }
-        self.refinement = replace(
-            self.refinement, gauge=replace(self.refinement.gauge, courses=courses)
-        )
+        found = courses(self.travels, self.postures, base, self.refinement.gauge.evaluator)
+        gauge = replace(self.refinement.gauge, courses=found)
+        self.refinement = replace(self.refinement, gauge=gauge)
 
     def _add(self, times: Iterable[Fraction], base: Movement, origin: Origin) -> None:
+        gauge = self.refinement.gauge
         for time in sorted(times):
-            bounds = [b for b in self.refinement.gauge.postures if b.requirement.covers(time)]
             passing = None
             if origin is Origin.BOUNDARY:
-                passing = passing_limbs(time, bounds, self.refinement.travels)
+                bounds = active(gauge.score, time, gauge.giving_way)
+                passing = passing_limbs(time, bounds, self.travels_at.at(time))
             self.postures.append(self.refinement.solve(time, base, origin, passing))
         self.postures.sort(key=lambda p: p.time)
 
@@ -134,6 +141,7 @@ class _Work:
         taken = [p.time for p in self.postures]
         out: list[Fraction] = []
         for time in sorted(samples):
-            if all(abs(time - t) >= CLOSEST_S for t in (*taken, *out[-1:])):
+            i = bisect_left(taken, time)
+            if all(abs(time - t) >= CLOSEST_S for t in (*taken[max(0, i - 1) : i + 1], *out[-1:])):
                 out.append(time)
         return out

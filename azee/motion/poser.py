@@ -14,6 +14,7 @@ from azee.motion.bound import Bound
 from azee.motion.curves import GO_ON_S
 from azee.motion.limbs import Limbs
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
+from azee.motion.spans import Spans
 from azee.motion.transpath import Travel, passing_limbs
 from azee_rig.coordinates import Coordinates
 from azee_solver.demand import Demand
@@ -46,14 +47,15 @@ def limbs_asked(bounds: Iterable[Bound]) -> frozenset[str]:
 class Poser:
     """The state of a body as keyframes are solved in order of time.
 
-    The posture term draws a limb to where it was while a block goes on, else to idle. A limb that
-    nothing has needed for longer than `GO_ON_S` is taken to have gone to rest.
+    A limb is drawn to where it was while a block that constrains it goes on, else to idle, so that
+    no sign inherits an odd elbow from the one before. A limb that nothing has needed for longer
+    than `GO_ON_S` is taken to have gone to rest.
     """
 
     coordinates: Coordinates
     limbs: Limbs
     solver: PostureSolver
-    travels: tuple[Travel, ...] = ()
+    travels: Spans[Travel] = field(default_factory=lambda: Spans(()))
     current: Array = field(init=False)
     last: KeyPosture | None = field(init=False, default=None)
     _needed: dict[str, Fraction] = field(init=False, default_factory=dict)
@@ -67,7 +69,7 @@ class Poser:
         """Solve an instant, or take over the last posture where it asks for nothing new."""
         demands = demands_of(bounds, time)
         asked = limbs_asked(bounds)
-        passing = passing_limbs(time, bounds, self.travels)
+        passing = passing_limbs(time, bounds, self.travels.at(time))
         current = self._rested(time)
         last = self.last
         if last is not None and _nothing_new(demands, last):
@@ -78,14 +80,14 @@ class Poser:
                     origin, reused=True,
                 )  # fmt: skip
         going_on = self._going_on(time, bounds)
-        idle = self.coordinates.idle
-        goes = np.array([n in going_on for n in self.limbs.names])[self.limbs.of_coordinate]
-        used = np.array([n in asked for n in self.limbs.names])[self.limbs.of_coordinate]
-        named = np.zeros(len(idle), dtype=np.bool_)
-        for b in bounds:
-            named[[*(b.moves | b.reads)]] = True
-        reference = np.where(goes, current, idle)
-        start = np.where(used & ~named, reference, current)
+        constrained = frozenset[str]().union(*(b.limbs for b in bounds))
+        anew = [n in constrained and n not in going_on for n in self.limbs.names]
+        reference = np.where(
+            np.array(anew)[self.limbs.of_coordinate], self.coordinates.idle, current
+        )
+        named = [v for b in bounds for v in b.moves]
+        start = reference.copy()
+        start[named] = current[named]
         return solved(
             time,
             bounds,
@@ -146,7 +148,7 @@ def solved(
     the solver saw them, and any other that it moved (the head, levelled over a bent trunk).
     """
     report = solver(demands, start=start, reference=reference)
-    moved = np.flatnonzero(np.abs(report.coordinates - start) > MOVED_RAD)
+    moved = np.flatnonzero(np.abs(report.coordinates - reference) > MOVED_RAD)
     keyed = limbs_asked(bounds) | limbs.touching(int(v) for v in moved)
     return KeyPosture(
         time, np.array(report.coordinates), keyed, passing, tuple(bounds), demands, report, origin

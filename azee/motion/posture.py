@@ -15,7 +15,7 @@ from azee.motion.bound import Bound
 from azee_solver.demand import Demand
 
 if TYPE_CHECKING:
-    from azee_solver.solve import SolveReport
+    from azee_solver.report import SolveReport
 
 Array = NDArray[np.float64]
 

@@ -20,7 +20,8 @@ from azee.motion.limbs import Limbs
 from azee.motion.movement import Movement, movement
 from azee.motion.poser import demands_of, solved
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
-from azee.motion.transpath import Course, Travel
+from azee.motion.spans import Spans
+from azee.motion.transpath import Course
 
 Array = NDArray[np.float64]
 
@@ -40,16 +41,14 @@ class Refinement:
     gauge: Gauge
     limbs: Limbs
     solver: PostureSolver
-    travels: tuple[Travel, ...]
+    holders: Spans[frozenset[str]]
+    """Limbs that something needs, by when."""
 
     def join(self, postures: Iterable[KeyPosture]) -> Movement:
         """Return the movement through key postures."""
         ordered = sorted(postures, key=lambda p: p.time)
-        holders = [
-            *((b.limbs | b.read_limbs, b.requirement.interval) for b in self.gauge.postures),
-            *((k.bound.limbs, k.between) for k in self.travels),
-        ]
-        return movement(ordered, holders, self.gauge.evaluator.rig.coordinates, self.limbs)
+        coordinates = self.gauge.evaluator.rig.coordinates
+        return movement(ordered, self.holders, coordinates, self.limbs)
 
     def solve(
         self,
@@ -59,8 +58,8 @@ class Refinement:
         passing: frozenset[str] | None = None,
     ) -> KeyPosture:
         """Solve an instant from where a movement has the body. By default every limb passes."""
-        bounds = active(self.gauge.postures, time, self.gauge.giving_way)
-        steering = [c for c in self.gauge.courses.values() if c.travel.steers(time)]
+        bounds = active(self.gauge.score, time, self.gauge.giving_way)
+        steering = self.gauge.steering(time)
         q = movement.sample(np.array([float(time)]))
         demands = demands_of(
             bounds, time, [c.demand(t) for c, t in self._targets(steering, time, q)]
@@ -123,16 +122,20 @@ class Refinement:
     def _ratios(self, at: Instants, at_keys: Instants, stretch: NDArray[np.int64]) -> Array:
         """Largest residual at every frame over what is allowed there, (T,)."""
         ratio = np.zeros(len(at.times))
-        for bound in (*self.gauge.postures, *(c.travel.bound for c in self.gauge.courses.values())):
+        for bound in self.gauge.measurable:
             rows = self.gauge.inside(bound, at.seconds, enforced=True)
-            if not len(rows):
+            if rows.start == rows.stop:
                 continue
-            anchors = self.gauge.inside(bound, at_keys.seconds, enforced=True)
-            allowed = np.full(len(at_keys.times), self.gauge.tolerance(bound) * MARGIN)
-            if len(anchors):
-                missed = self.gauge.residual(bound, at_keys.only(anchors))
-                allowed[anchors] = np.fmax(allowed[anchors], NO_WORSE * missed)
-            limit = np.maximum(allowed[stretch[rows]], allowed[stretch[rows] + 1])
+            first, last = int(stretch[rows.start]), int(stretch[rows.stop - 1]) + 2
+            allowed = np.full(last - first, self.gauge.tolerance(bound) * MARGIN)
+            keys = self.gauge.inside(bound, at_keys.seconds, enforced=True)
+            keys = slice(max(keys.start, first), min(keys.stop, last))
+            if keys.start < keys.stop:
+                missed = self.gauge.residual(bound, at_keys.only(keys))
+                met = slice(keys.start - first, keys.stop - first)
+                allowed[met] = np.fmax(allowed[met], NO_WORSE * missed)
+            own = stretch[rows] - first
+            limit = np.maximum(allowed[own], allowed[own + 1])
             residual = self.gauge.residual(bound, at.only(rows))
             ratio[rows] = np.fmax(ratio[rows], residual / limit)
         return ratio

@@ -15,7 +15,7 @@ from azee.motion.gauge import TOLERANCE, Instants
 from azee.motion.plan import Plan
 from azee_rig.coordinates import Coordinates
 from azee_solver import describe
-from azee_solver.constraint import Constraint
+from azee_solver.constraint import Constraint, Trill
 from azee_solver.geometry import Side
 
 if TYPE_CHECKING:
@@ -127,13 +127,13 @@ def constraint_results(
     Args: frames: the movement without what trills lay on it. short: angles by which trills fall
         short, by rank.
     """
-    steered = {*plan.gauge.courses}
+    measurable = {b.requirement.rank for b in plan.gauge.measurable}
     out = []
     for bound in score.all:
         rank = bound.requirement.rank
-        if bound in score.postures or rank in steered:
+        if rank in measurable:
             out.append(_measured(bound, plan, frames, dominant))
-        elif bound in score.trills:
+        elif isinstance(bound.constraint, Trill):
             out.append(_trill(bound, short.get(rank, 0.0), dominant))
         else:
             out.append(_result(bound, dominant, 0.0, "m", FACE_TOLERANCE_M, None))
@@ -143,10 +143,8 @@ def constraint_results(
 def _measured(bound: Bound, plan: Plan, frames: Instants, dominant: Side) -> ConstraintResult:
     gauge = plan.gauge
     rows = gauge.inside(bound, frames.seconds)
-    residual = 0.0
-    if len(rows):
-        values = gauge.residual(bound, frames.only(rows))
-        residual = float(np.max(values))
+    values = gauge.residual(bound, frames.only(rows))
+    residual = float(np.max(values, initial=0.0))
     unit, tolerance = gauge.unit(bound), gauge.tolerance(bound)
     reason = None
     if not residual <= tolerance * _ROUNDING:
@@ -230,7 +228,17 @@ def _keyframe(posture: KeyPosture) -> dict[str, object]:
 
 def _problems(posture: KeyPosture) -> Sequence[dict[str, object]]:
     return [
-        {"time_s": float(posture.time), "name": p.name, "chain": [*p.chain]}
+        {
+            "time_s": float(posture.time),
+            "name": p.name,
+            "constraints": [
+                {"path": [*posture.demands[i].path], "kind": kind(posture.demands[i].constraint)}
+                for i in p.constraints
+            ],
+            "chain": [*p.chain],
+            "merged_into": p.merged_into,
+            "moved": [*p.moved],
+        }
         for p in posture.report.problems
     ]
 
@@ -239,9 +247,9 @@ def _penetration(posture: KeyPosture) -> Sequence[dict[str, object]]:
     return [
         {
             "time_s": float(posture.time),
-            "pair": [*p.pair],
+            "pair": [p.first, p.second],
             "depth_m": p.depth_m,
-            "intended": p.intended,
+            "intended": False,
         }
         for p in posture.report.penetration
     ]

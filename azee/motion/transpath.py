@@ -15,9 +15,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.bound import Bound
+from azee.motion.bound import Bound, BoundScore
 from azee.motion.movement import Movement
 from azee.motion.posture import KeyPosture
+from azee.motion.spans import Spans
 from azee.motion.spline import minimum_jerk
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
@@ -118,18 +119,19 @@ class Course:
         return Demand(place, r.path, r.interval.start, r.rank)
 
 
-def travels(
-    paths: Iterable[Bound], postures: Iterable[Bound], dominant: Side
-) -> tuple[Travel, ...]:
+def travels(score: BoundScore, dominant: Side) -> tuple[Travel, ...]:
     """Find between which placements every transpath leads."""
-    placements: dict[str, list[Bound]] = {}
-    for b in postures:
-        if isinstance(b.constraint, Place):
-            placements.setdefault(b.constraint.site.key(dominant), []).append(b)
     out = []
-    for path in paths:
+    for path in score.paths:
         assert isinstance(path.constraint, Transpath)
-        out.append(_travel(path, placements.get(path.constraint.site.key(dominant), ())))
+        site, own = path.constraint.site.key(dominant), path.requirement.interval
+        near = score.in_force.meeting(Interval(own.start - WAITS_S, own.end + WAITS_S))
+        placements = [
+            b
+            for b in near
+            if isinstance(b.constraint, Place) and b.constraint.site.key(dominant) == site
+        ]
+        out.append(_travel(path, placements))
     return tuple(out)
 
 
@@ -149,10 +151,15 @@ def _travel(path: Bound, placements: Sequence[Bound]) -> Travel:
     return Travel(path, before, after, start, max(start, end))
 
 
-def deferred(known: Iterable[Travel], times: Iterable[Fraction]) -> frozenset[Fraction]:
+def by_time(known: Iterable[Travel]) -> Spans[Travel]:
+    """Return travels by when they are between their placements."""
+    return Spans((k.between, k) for k in known)
+
+
+def deferred(known: Sequence[Travel], times: Iterable[Fraction]) -> frozenset[Fraction]:
     """Return keyframes that lie on a path and on which no path's end depends."""
-    known = tuple(known)
-    return frozenset(t for t in times if any(k.steers(t) for k in known)) - ends(known)
+    spans = by_time(known)
+    return frozenset(t for t in times if any(k.steers(t) for k in spans.at(t))) - ends(known)
 
 
 def ends(known: Iterable[Travel]) -> frozenset[Fraction]:
@@ -185,25 +192,36 @@ def passing_limbs(
         moving |= following
 
 
-def course(
-    travel: Travel, postures: Sequence[KeyPosture], movement: Movement, evaluator: Evaluator
-) -> Course:
-    """Measure where a travel starts and ends, on key postures or else on the movement."""
+def courses(
+    known: Iterable[Travel],
+    postures: Sequence[KeyPosture],
+    movement: Movement,
+    evaluator: Evaluator,
+) -> dict[int, Course]:
+    """Measure where travels start and end, on key postures or else on the movement.
 
-    def place(at: Bound | None, time: Fraction, last: bool) -> Array:
-        with_it = [p for p in postures if at is not None and at in p.bounds]
-        if with_it:
-            q = (with_it[-1] if last else with_it[0]).coordinates
-        else:
-            q = movement.sample(np.array([float(time)]))[0]
-        frames = evaluator.rig.chain.frames(q)
-        return evaluator.site(travel.constraint.site, frames)
+    Args: postures: in order of time. Returns: courses by rank of their transpath.
+    """
+    first: dict[Bound, KeyPosture] = {}
+    last: dict[Bound, KeyPosture] = {}
+    for posture in postures:
+        for bound in posture.bounds:
+            first.setdefault(bound, posture)
+            last[bound] = posture
 
-    return Course(
-        travel,
-        place(travel.before, travel.start, last=True),
-        place(travel.after, travel.end, last=False),
-    )
+    def place(travel: Travel, posture: KeyPosture | None, time: Fraction) -> Array:
+        at = np.array([float(time)])
+        q = movement.sample(at)[0] if posture is None else posture.coordinates
+        return evaluator.site(travel.constraint.site, evaluator.rig.chain.frames(q))
+
+    out = {}
+    for travel in known:
+        leaves = None if travel.before is None else last.get(travel.before)
+        arrives = None if travel.after is None else first.get(travel.after)
+        out[travel.bound.requirement.rank] = Course(
+            travel, place(travel, leaves, travel.start), place(travel, arrives, travel.end)
+        )
+    return out
 
 
 def course_samples(whole: Course, frames: Frames, evaluator: Evaluator) -> list[Fraction]:

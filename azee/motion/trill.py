@@ -98,10 +98,12 @@ def laid_on(
     out = q.copy()
     short: dict[int, float] = {}
     for trill in trills:
-        wanted = trill.swing(times_s)[:, None] * trill.direction
-        before = out
-        out = np.clip(before + wanted, coordinates.lower, coordinates.upper)
-        lost = float(np.max(np.abs(before + wanted - out), initial=0.0))
+        interval = trill.bound.requirement.interval
+        ends = np.searchsorted(times_s, (float(interval.start), float(interval.end)))
+        rows = slice(int(ends[0]), int(ends[1]))
+        wanted = out[rows] + trill.swing(times_s[rows])[:, None] * trill.direction
+        out[rows] = np.clip(wanted, coordinates.lower, coordinates.upper)
+        lost = float(np.max(np.abs(wanted - out[rows]), initial=0.0))
         constraint = trill.bound.constraint
         assert isinstance(constraint, Trill)
         missing = (1.0 - trill.reach) * constraint.amplitude_rad

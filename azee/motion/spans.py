@@ -1,0 +1,55 @@
+"""Looking up what lasts at an instant, without asking everything there is."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import Generic, TypeVar
+
+from azee.score.interval import Interval
+
+T = TypeVar("T")
+
+
+class Spans(Generic[T]):
+    """Things that last for an interval each, both ends included.
+
+    The instants at which anything starts or ends cut the time line into stretches; each keeps
+    what overlaps it, so that asking for an instant costs as much as the answer is long.
+    """
+
+    def __init__(self, items: Iterable[tuple[Interval, T]]) -> None:
+        self._entries = [*items]
+        self.instants: tuple[Fraction, ...] = tuple(
+            sorted({t for span, _ in self._entries for t in (span.start, span.end)})
+        )
+        """All starts and ends, in order."""
+        position = {t: i for i, t in enumerate(self.instants)}
+        self._stretches: list[list[int]] = [[] for _ in self.instants]
+        for k, (span, _) in enumerate(self._entries):
+            for i in range(position[span.start], position[span.end] + 1):
+                self._stretches[i].append(k)
+
+    def at(self, time: Fraction) -> list[T]:
+        """Return what lasts at an instant, in the order given."""
+        return self.all_through(Interval(time, time))
+
+    def all_through(self, interval: Interval) -> list[T]:
+        """Return what lasts from the start of an interval to its end, in the order given."""
+        i = bisect_right(self.instants, interval.start) - 1
+        if i < 0:
+            return []
+        near = (self._entries[k] for k in self._stretches[i])
+        return [t for span, t in near if span.start <= interval.start and interval.end <= span.end]
+
+    def meeting(self, interval: Interval) -> list[T]:
+        """Return what shares an instant with an interval, in the order given."""
+        first = max(0, bisect_right(self.instants, interval.start) - 1)
+        last = bisect_right(self.instants, interval.end)
+        near = sorted({k for stretch in self._stretches[first:last] for k in stretch})
+        return [
+            t
+            for span, t in (self._entries[k] for k in near)
+            if span.start <= interval.end and interval.start <= span.end
+        ]

@@ -1,0 +1,414 @@
+"""The whole of motion on the body that ships, with scores built by hand."""
+
+from __future__ import annotations
+
+import json
+import math
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+
+from azee.motion.animate import Animation, animate
+from azee.motion.report import ConstraintResult
+from azee.score.interval import Interval
+from azee.score.score import Block, Call, Group, Hold, Key, Score
+from azee_rig.load import load_rig
+from azee_rig.rig import Rig
+from azee_solver.constraint import (
+    BoneAxis,
+    Constraint,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+    Transpath,
+    Trill,
+)
+from azee_solver.geometry import (
+    Arc,
+    Bone,
+    Circle,
+    Dir,
+    FreePoint,
+    Moving,
+    NamedPoint,
+    Opp,
+    Out,
+    Path,
+    Side,
+    SigningSpace,
+    Site,
+    SitePoint,
+    Straight,
+    Vec,
+    VTranslate,
+)
+
+F = Fraction
+S, W = Side.STRONG, Side.WEAK
+UP = Vec(0, 1, 0)
+INWARD = Opp(Out(S))
+MIDDLE = NamedPoint(SigningSpace.MSSP)
+TIP = Site("I_TIP", S)
+
+
+@cache
+def rig() -> Rig:
+    return load_rig()
+
+
+def at(site: Site, x: float, y: float, z: float) -> Place:
+    return Place(site, VTranslate(MIDDLE, Vec(x, y, z)))
+
+
+def block(name: str, start: str, length: str, *constraints: Constraint) -> Block:
+    interval = Interval(F(start), F(start) + F(length))
+    return Block(name, interval, Key(F(length), constraints=constraints))
+
+
+def hold(name: str, start: str, length: str, of: str, *channels: str) -> Block:
+    interval = Interval(F(start), F(start) + F(length))
+    return Block(name, interval, Hold(F(length), block=of, channels=channels or ("hands",)))
+
+
+def sync(*blocks: Block, rule: str | None = None) -> Group:
+    calls = () if rule is None else (Call(rule),)
+    return Group(max(b.interval_in_parent.end for b in blocks), blocks=blocks, calls=calls)
+
+
+@cache
+def played(score: Score, *, fps: float = 30.0, dominant: Side = Side.RIGHT) -> Animation:
+    return animate(score, rig(), fps=fps, dominant=dominant, life=False)
+
+
+def results(animation: Animation) -> dict[str, ConstraintResult]:
+    return {"/".join(c.path) + f" {c.kind}": c for c in animation.report.constraints}
+
+
+def tip_track(animation: Animation, site: str = "I_TIP_R") -> np.ndarray:
+    frames = rig().chain.frames(animation.clip.coordinates)
+    found = rig().sites[site]
+    R = frames.rotations[:, found.node]
+    return np.asarray(frames.positions[:, found.node] + R @ found.position)
+
+
+def frame_at(animation: Animation, score_s: float) -> int:
+    return int(np.argmin(np.abs(animation.clip.times - animation.lead_s - score_s)))
+
+
+TWO_KEYS = sync(
+    block("START", "0", ".2", at(TIP, 0, 0.05, 0)),
+    block("END", ".6", ".2", at(TIP, -0.1, -0.1, 0)),
+    block("PALM", "0", ".8", Orient(BoneAxis.NRM, Bone("palm", S), Relation.ALONG, INWARD)),
+)
+PATH = sync(
+    block("START", "0", ".2", at(TIP, 0, 0.1, 0)),
+    block("MOVE", ".2", ".6", Transpath(TIP, Straight())),
+    block("END", ".8", ".2", at(TIP, 0, -0.1, 0)),
+)
+SHAKE = sync(
+    block("SIGN", "0", "1.2", at(TIP, 0, 0.05, 0)),
+    block("R", ".3", ".1", Rotate(Bone("head"), UP, math.radians(-15))),
+    block("L", ".6", ".1", Rotate(Bone("head"), UP, math.radians(15))),
+)
+
+
+@pytest.mark.parametrize("score", [TWO_KEYS, PATH, SHAKE])
+@pytest.mark.parametrize("fps", [30.0, 60.0])
+def test_every_constraint_holds_in_every_frame_of_its_block(score: Score, fps: float) -> None:
+    animation = played(score, fps=fps)
+    assert [(c.path, c.reason) for c in animation.report.constraints if not c.met] == []
+    assert animation.report.max_excess_rad == 0
+    assert animation.report.met
+
+
+def test_the_score_keeps_its_times() -> None:
+    animation = played(TWO_KEYS)
+    in_score = [round(t - animation.lead_s, 9) for t in animation.key_times]
+    assert {0.0, 0.2, 0.6, 0.8} <= set(in_score)
+    assert animation.lead_s * 30 == pytest.approx(round(animation.lead_s * 30))
+    assert {(c.start_s, c.end_s) for c in animation.report.constraints} == {
+        (0.0, 0.2),
+        (0.6, 0.8),
+        (0.0, 0.8),
+    }
+    assert [(label.text, round(label.start_s - animation.lead_s, 9), label.depth)
+            for label in animation.clip.labels] == [
+        ("START", 0.0, 0), ("PALM", 0.0, 0), ("END", 0.6, 0),
+    ]  # fmt: skip
+
+
+def test_the_signer_stands_idle_before_and_after() -> None:
+    clip = played(TWO_KEYS).clip
+    assert clip.coordinates[0] == pytest.approx(rig().coordinates.idle)
+    assert clip.coordinates[-1] == pytest.approx(rig().coordinates.idle)
+
+
+def test_nothing_jumps() -> None:
+    clip = played(PATH, fps=60.0).clip
+    step = np.abs(np.diff(clip.coordinates, axis=0)) * 60.0
+    assert step.max() < math.radians(700)
+    jump = np.abs(np.diff(clip.coordinates, n=2, axis=0)) * 60.0**2
+    assert jump.max() < 300
+
+
+def test_a_static_block_is_solved_once() -> None:
+    animation = played(sync(block("ONLY", "0", "2", at(TIP, 0, 0, 0))))
+    assert [p.reused for p in animation.report.postures] == [False, True]
+    first, second = (p.coordinates for p in animation.report.postures)
+    assert np.array_equal(first, second)
+
+
+@pytest.mark.parametrize(
+    "path", [Straight(), Arc(Vec(0.08, 0, 0)), Circle(Vec(0, 0, 1), 0.05, 1.0)]
+)
+def test_a_site_travels_on_its_path_within_2_mm(path: Path) -> None:
+    score = sync(
+        block("START", "0", ".2", at(TIP, 0, 0.1, 0)),
+        block("MOVE", ".2", ".6", Transpath(TIP, path)),
+        block("END", ".8", ".2", at(TIP, 0, 0.02, 0)),
+    )
+    animation = played(score)
+    move = results(animation)["MOVE transpath"]
+    assert move.met, move
+    assert move.residual is not None
+    assert move.residual < 2e-3
+
+
+def test_a_straight_path_is_straight_and_has_the_profile_of_minimum_jerk() -> None:
+    animation = played(PATH)
+    tip = tip_track(animation)
+    first, last = tip[frame_at(animation, 0.2)], tip[frame_at(animation, 0.8)]
+    assert first - last == pytest.approx([0, 0.2 * _scale(), 0], abs=2e-3)
+    for tau in (0.25, 0.5, 0.75):
+        s = 10 * tau**3 - 15 * tau**4 + 6 * tau**5
+        now = tip[frame_at(animation, 0.2 + 0.6 * tau)]
+        exact = animation.clip.times[frame_at(animation, 0.2 + 0.6 * tau)] - animation.lead_s
+        assert exact == pytest.approx(0.2 + 0.6 * tau, abs=0.017)
+        tau = (exact - 0.2) / 0.6
+        s = 10 * tau**3 - 15 * tau**4 + 6 * tau**5
+        assert now == pytest.approx(first + s * (last - first), abs=2e-3)
+
+
+def _scale() -> float:
+    return rig().landmarks.arm_m / rig().landmarks.reference_arm_m
+
+
+def test_other_constraints_hold_on_the_way() -> None:
+    score = sync(
+        *PATH.blocks,
+        block(
+            "PERM", "0", "1", Orient(BoneAxis.NRM, Bone("palm", S), Relation.ALONG, Vec(1, 0, 0))
+        ),
+    )
+    perm = results(played(score))["PERM orient"]
+    assert perm.met, perm
+
+
+def test_both_hands_travel_at_once_and_a_key_falls_on_the_way() -> None:
+    weak = Site("I_TIP", W)
+    score = sync(
+        block("START", "0", ".2", at(TIP, -0.05, 0.1, 0), at(weak, 0.05, 0.1, 0)),
+        block("MOVE", ".2", ".6", Transpath(TIP, Straight()), Transpath(weak, Straight())),
+        block("END", ".8", ".2", at(TIP, -0.2, 0.1, 0), at(weak, 0.2, 0.1, 0)),
+        block("NOD", ".4", ".2", Rotate(Bone("head"), Vec(1, 0, 0), 0.2)),
+    )
+    animation = played(score)
+    assert animation.report.met, [c for c in animation.report.constraints if not c.met]
+    speed = np.linalg.norm(np.diff(tip_track(animation), axis=0), axis=1)
+    assert speed[frame_at(animation, 0.4)] > 0.003
+    assert speed[frame_at(animation, 0.6)] > 0.003
+
+
+def test_a_place_follows_a_moving_point() -> None:
+    moving = Moving(Arc(Vec(0, 0.05, 0)), MIDDLE, VTranslate(MIDDLE, Vec(-0.15, 0, 0)))
+    score = sync(
+        block("MVT", "0", ".8", Place(TIP, moving)),
+        hold("HOLD", ".8", ".4", "MVT"),
+    )
+    found = results(played(score))
+    assert found["MVT place"].met, found["MVT place"]
+    assert found["HOLD place"].met, found["HOLD place"]
+    tip = tip_track(played(score))
+    first, last = frame_at(played(score), 0.8), frame_at(played(score), 1.2)
+    assert np.ptp(tip[first : last + 1], axis=0).max() < 1e-3
+
+
+def test_a_hold_keeps_the_hands_and_lets_the_head_go() -> None:
+    sign = block("A", "0", ".5", at(TIP, 0, 0, 0), Rotate(Bone("head"), UP, 0.4))
+    animation = played(sync(sign, hold("H", ".5", "1.5", "A")))
+    found = results(animation)
+    assert found["H place"].met
+    assert "H rotate" not in found
+    axial = rig().coordinates.index["head.axial"]
+    end = frame_at(animation, 1.9)
+    assert abs(animation.clip.coordinates[end, axial]) < 0.01
+    assert tip_track(animation)[end] == pytest.approx(
+        tip_track(animation)[frame_at(animation, 0.5)], abs=1e-3
+    )
+
+
+def test_a_free_hand_goes_down_while_the_other_signs_on() -> None:
+    weak = Place(Site("I_TIP", W), VTranslate(MIDDLE, Vec(0.1, 0.3, 0)))
+    animation = played(
+        sync(
+            block("BOTH", "0", ".5", at(TIP, -0.1, 0, 0), weak),
+            block("ONE", ".8", "2", at(TIP, -0.1, 0.1, 0)),
+        )
+    )
+    left = [i for i, n in enumerate(rig().coordinates.names) if n.startswith(("arm_L", "f_arm_L"))]
+    late = animation.clip.coordinates[frame_at(animation, 2.0)]
+    assert late[left] == pytest.approx(rig().coordinates.idle[left], abs=1e-6)
+    both = animation.clip.coordinates[frame_at(animation, 0.5)]
+    assert np.abs(both[left] - rig().coordinates.idle[left]).max() > 0.2
+
+
+def test_a_key_of_the_head_does_not_stop_a_free_arm() -> None:
+    sign = (
+        block("A", "0", ".2", at(TIP, 0, 0.1, 0)),
+        block("B", ".7", ".2", at(TIP, -0.15, -0.1, 0)),
+    )
+    nod = block("NOD", ".45", "0", Rotate(Bone("head"), Vec(1, 0, 0), 0.1))
+    arm = [i for i, n in enumerate(rig().coordinates.names) if n.startswith(("arm_R", "f_arm_R"))]
+    with_nod, without = played(sync(*sign, nod)), played(sync(*sign))
+    assert with_nod.clip.coordinates[:, arm] == pytest.approx(without.clip.coordinates[:, arm])
+    flexion = rig().coordinates.index["head.flexion"]
+    assert np.ptp(with_nod.clip.coordinates[:, flexion]) > 0.05
+
+
+def test_two_postures_that_share_an_instant_are_told_apart() -> None:
+    score = sync(
+        block("A", "0", ".6", at(TIP, 0, 0.1, 0)),
+        block("B", ".6", ".6", at(TIP, -0.1, -0.05, 0)),
+    )
+    animation = played(score)
+    found = results(animation)
+    assert found["B place"].met
+    assert not found["A place"].met
+    assert "gives way" in str(found["A place"].reason)
+    assert "to B" in str(found["A place"].reason)
+    step = np.abs(np.diff(animation.clip.coordinates, axis=0)).max() * 30
+    assert step < math.radians(900)
+
+
+def test_two_blocks_that_one_posture_serves_share_the_instant() -> None:
+    palm = Orient(BoneAxis.NRM, Bone("palm", S), Relation.ALONG, Vec(0, -1, 0))
+    animation = played(sync(block("A", "0", ".6", palm), block("B", ".6", ".6", at(TIP, 0, 0, 0))))
+    assert animation.report.met, animation.report.constraints
+
+
+def test_a_hand_that_rests_on_the_head_follows_it() -> None:
+    forehead = Place(TIP, SitePoint(Site("FH")), contact=True)
+    score = sync(
+        block("TOUCH", "0", "1.2", forehead),
+        block("TURN", ".4", ".3", Rotate(Bone("head"), UP, math.radians(20))),
+    )
+    touch = results(played(score))["TOUCH place"]
+    assert touch.met, touch
+
+
+def test_a_trill_swings_as_often_and_as_far_as_it_says_and_fades() -> None:
+    trill = Trill(Bone("f_arm", S), Dir(Bone("f_arm", S)), 4.0, math.radians(8))
+    score = sync(block("T", "0", "1", trill), block("P", "0", "1", at(TIP, 0, 0, 0)))
+    animation = played(score, fps=120.0)
+    plain = played(sync(block("P", "0", "1", at(TIP, 0, 0, 0))), fps=120.0)
+    q, base = animation.clip.coordinates, plain.clip.coordinates
+    swing = q - base
+    column = rig().coordinates.index["f_arm_R.pronation"]
+    assert results(animation)["T trill"].met
+    assert results(animation)["P place"].met
+    assert np.abs(swing[:, column]).max() == pytest.approx(math.radians(8), rel=0.1)
+    inside = swing[frame_at(animation, 0.15) : frame_at(animation, 0.86), column]
+    crossings = np.count_nonzero(np.diff(np.sign(inside[np.abs(inside) > 1e-4])))
+    assert crossings == pytest.approx(2 * 4.0 * 0.71, abs=1.1)
+    assert np.abs(swing[frame_at(animation, 0.0)]).max() < 1e-9
+    assert np.abs(swing[frame_at(animation, 1.0)]).max() < 1e-9
+
+
+def test_a_look_and_a_facial_morph_leave_the_arms_at_rest() -> None:
+    score = sync(
+        block("GAZE", "0", "1", LookAt(FreePoint(-0.3, 0.1, 1.0))),
+        block("FACE", "0", "1", Morph("AU1", None, 0.7)),
+    )
+    animation = played(score)
+    assert animation.report.met, animation.report.constraints
+    arms = [i for i, n in enumerate(rig().coordinates.names) if n.startswith(("arm", "f_arm"))]
+    idle = rig().coordinates.idle[arms]
+    assert animation.clip.coordinates[:, arms] == pytest.approx(
+        np.broadcast_to(idle, (len(animation.clip.times), len(arms)))
+    )
+    middle = animation.clip.unit_weights[frame_at(animation, 0.5)]
+    share = rig().face_morphs["AU1"]
+    for unit, weight in zip(animation.clip.units, middle, strict=True):
+        assert weight == pytest.approx(0.7 * share.get(unit, 0.0))
+
+
+def test_left_handers_sign_with_the_left() -> None:
+    left = played(TWO_KEYS, dominant=Side.LEFT)
+    assert left.report.met
+    assert np.ptp(tip_track(left, "I_TIP_L"), axis=0).max() > 0.1
+    assert np.ptp(tip_track(left, "I_TIP_R"), axis=0).max() < 0.02
+
+
+def test_the_same_score_gives_the_same_bytes() -> None:
+    again = animate(PATH, rig(), life=False).clip
+    assert again.coordinates.tobytes() == played(PATH).clip.coordinates.tobytes()
+
+
+def test_life_is_seeded_low_and_keeps_off_what_the_score_constrains() -> None:
+    face = block("FACE", "0", "3", Morph("AU1", None, 0.7))
+    score = sync(block("SIGN", "0", "3", at(TIP, 0, 0, 0)), face)
+    lively = animate(score, rig(), seed=5)
+    assert np.array_equal(lively.clip.coordinates, animate(score, rig(), seed=5).clip.coordinates)
+    inside = slice(frame_at(lively, 0.0), frame_at(lively, 3.0) + 1)
+    still = played(score)
+    assert np.array_equal(lively.clip.coordinates[inside], still.clip.coordinates[inside])
+    assert np.abs(lively.clip.coordinates - still.clip.coordinates).max() < math.radians(1)
+    shown = dict(zip(lively.clip.units, lively.clip.unit_weights[inside].T, strict=True))
+    assert not np.any(shown.get("eyeBlinkLeft", np.zeros(1)))
+    quiet = animate(sync(block("PAUSE", "0", "20")), rig(), seed=5)
+    assert quiet.clip.unit_weights.max() > 0.9
+    assert np.ptp(quiet.clip.coordinates, axis=0).max() > math.radians(0.2)
+
+
+def test_the_report_is_plain_json_with_the_documented_fields() -> None:
+    report = json.loads(json.dumps(played(PATH).report.as_json(), allow_nan=False))
+    assert {
+        "rig", "fps", "mode", "duration_s", "keyframes", "problems", "evaluations", "solve_s",
+        "constraints", "limits", "penetration",
+    } <= report.keys()  # fmt: skip
+    for row in report["constraints"]:
+        assert {
+            "path", "rule", "kind", "target", "start_s", "end_s", "residual", "unit", "tolerance",
+            "met", "reason",
+        } <= row.keys()  # fmt: skip
+        assert row["unit"] in ("m", "rad")
+        assert row["met"] == (row["reason"] is None)
+    assert report["limits"] == {"max_excess_rad": 0.0, "joint": None}
+
+
+def test_what_cannot_be_reached_is_reported_and_not_an_exception() -> None:
+    animation = played(sync(block("FAR", "0", ".5", at(TIP, 0, 0, 3))))
+    (far,) = animation.report.constraints
+    assert not far.met
+    assert far.reason
+    assert far.residual is not None
+    assert far.residual > 1
+
+
+def test_an_empty_score_is_a_signer_at_rest() -> None:
+    animation = played(sync(block("NOTHING", "0", "1")))
+    assert animation.report.constraints == ()
+    assert animation.key_times == ()
+    assert animation.clip.times[-1] >= 1
+
+
+def test_a_mode_that_is_none_is_an_error() -> None:
+    with pytest.raises(ValueError, match="no mode"):
+        animate(TWO_KEYS, rig(), mode="wild")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="frames per second"):
+        animate(TWO_KEYS, rig(), fps=0)

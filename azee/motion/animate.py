@@ -15,7 +15,6 @@ from azee.motion.bound import Bound, bind
 from azee.motion.clip import Clip
 from azee.motion.face import RAMP_S, face_weights
 from azee.motion.flatten import flatten
-from azee.motion.gauge import instants
 from azee.motion.idle import AFTER_S, BEFORE_S, BLINK, blinks, breathing
 from azee.motion.labels import labels
 from azee.motion.limbs import Limbs
@@ -102,8 +101,6 @@ def animate(
         weights[:, moving],
         labels(score, lead_s),
     )
-    at_frames_and_keys = sorted({*inside, *(p.time for p in solved.postures)})
-    measured = instants(solved.movement, at_frames_and_keys, evaluator)
     excess, joint = limit_excess(q, rig.coordinates)
     report = MotionReport(
         rig=rig.name,
@@ -112,7 +109,7 @@ def animate(
         duration_s=float(clip.times[-1]),
         lead_s=lead_s,
         score_s=float(score.duration),
-        constraints=constraint_results(bound, solved, measured, short, dominant),
+        constraints=constraint_results(bound, solved, short, dominant),
         max_excess_rad=excess,
         excess_joint=joint,
         postures=solved.postures,

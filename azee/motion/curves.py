@@ -73,6 +73,8 @@ class LimbTrack:
     def sample(self, times_s: Array) -> Array:
         """Return the limb's coordinates at increasing times, (T, n); limits are the caller's."""
         out = np.broadcast_to(self.rest, (len(times_s), len(self.rest))).copy()
+        if not len(times_s):
+            return out
         stops = [i for i, key in enumerate(self.keys) if not key.passing]
         for first, last in pairwise(stops):
             run = self.keys[first : last + 1]

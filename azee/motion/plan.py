@@ -10,7 +10,7 @@ from fractions import Fraction
 import numpy as np
 
 from azee.motion.bound import Bound, BoundScore
-from azee.motion.gauge import Gauge
+from azee.motion.gauge import Gauge, Instants
 from azee.motion.keyframes import active, solve_boundaries
 from azee.motion.limbs import Limbs
 from azee.motion.movement import Movement
@@ -34,11 +34,15 @@ from azee_solver.evaluate import Evaluator
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan:
-    """Key postures in order of time, the movement through them, and what measures it."""
+    """Key postures in order of time, the movement through them, and what measures it.
+
+    instants: the movement at the frames inside the score and at the keys.
+    """
 
     postures: tuple[KeyPosture, ...]
     movement: Movement
     gauge: Gauge
+    instants: Instants
 
 
 def plan(
@@ -64,8 +68,8 @@ def plan(
     work = _Work(Refinement(gauge, limbs, solver, holders), known, at, list(first.postures))
     work.steer(later)
     work.follow(b for b in score.postures if b.dynamic)
-    postures = work.refinement.added(work.postures, frame_times)
-    return Plan(tuple(postures), work.refinement.join(postures), work.refinement.gauge)
+    done = work.refinement.refined(work.postures, frame_times)
+    return Plan(done.postures, done.movement, work.refinement.gauge, done.instants)
 
 
 @dataclass(slots=True, eq=False)
@@ -128,12 +132,14 @@ class _Work:
 
     def _add(self, times: Iterable[Fraction], base: Movement, origin: Origin) -> None:
         gauge = self.refinement.gauge
-        for time in sorted(times):
-            passing = None
-            if origin is Origin.BOUNDARY:
-                bounds = active(gauge.score, time, gauge.giving_way)
-                passing = passing_limbs(time, bounds, self.travels_at.at(time))
-            self.postures.append(self.refinement.solve(time, base, origin, passing))
+        ordered = sorted(times)
+        passing = None
+        if origin is Origin.BOUNDARY:
+            passing = [
+                passing_limbs(t, active(gauge.score, t, gauge.giving_way), self.travels_at.at(t))
+                for t in ordered
+            ]
+        self.postures += self.refinement.solve(ordered, base, origin, passing)
         self.postures.sort(key=lambda p: p.time)
 
     def _apart(self, samples: Iterable[Fraction]) -> list[Fraction]:

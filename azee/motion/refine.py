@@ -7,6 +7,7 @@ pass through it without stopping. Repeated, this halves the stretches that are t
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,17 +22,28 @@ from azee.motion.movement import Movement, movement
 from azee.motion.poser import demands_of, solved
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
 from azee.motion.spans import Spans
-from azee.motion.transpath import Course
+from azee_rig.chain import Frames
 
 Array = NDArray[np.float64]
 
-ROUNDS = 8
+ROUNDS = 12
 MARGIN = 0.9
 """Share of the tolerance that an interpolated posture may use up before a key is added."""
 NO_WORSE = 1.1
 """Between keys that miss a constraint, it may be missed by this much more."""
 CLOSEST_S = 0.012
 """Keys nearer than this to another would only shake."""
+NEIGHBOURS = 3
+"""A key that is added bends the curve about as many keys away; those stretches are checked."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Refined:
+    """Key postures in order of time, the movement through them, measured at frames and keys."""
+
+    postures: tuple[KeyPosture, ...]
+    movement: Movement
+    instants: Instants
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,90 +64,113 @@ class Refinement:
 
     def solve(
         self,
-        time: Fraction,
+        times: Sequence[Fraction],
         movement: Movement,
         origin: Origin,
-        passing: frozenset[str] | None = None,
-    ) -> KeyPosture:
-        """Solve an instant from where a movement has the body. By default every limb passes."""
-        bounds = active(self.gauge.score, time, self.gauge.giving_way)
-        steering = self.gauge.steering(time)
-        q = movement.sample(np.array([float(time)]))
-        demands = demands_of(
-            bounds, time, [c.demand(t) for c, t in self._targets(steering, time, q)]
-        )
-        asking = (*bounds, *(c.travel.bound for c in steering))
-        return solved(
-            time, asking, demands, q[0], q[0], origin,
-            frozenset(self.limbs.names) if passing is None else passing,
-            limbs=self.limbs, solver=self.solver,
-        )  # fmt: skip
-
-    def _targets(
-        self, steering: Iterable[Course], time: Fraction, q: Array
-    ) -> Iterable[tuple[Course, Array]]:
-        evaluator = self.gauge.evaluator
-        frames = evaluator.rig.chain.frames(q)
-        for course in steering:
-            yield course, course.target([time], frames, evaluator)[0]
-
-    def added(
-        self, postures: Sequence[KeyPosture], frame_times: Sequence[Fraction]
+        passing: Sequence[frozenset[str]] | None = None,
     ) -> list[KeyPosture]:
-        """Return key postures with those added that every frame needs."""
-        out = sorted(postures, key=lambda p: p.time)
-        for _ in range(ROUNDS):
-            current = self.join(out)
-            keys = sorted({p.time for p in out})
-            worst = self._worst(current, keys, frame_times)
-            if not worst:
-                break
-            out += [self.solve(t, current, Origin.ADDED) for t in worst]
-            out.sort(key=lambda p: p.time)
+        """Solve increasing instants, each from where a movement has the body then.
+
+        Args: passing: limbs that pass through each key; by default all do.
+        """
+        if not times:
+            return []
+        at = instants(movement, times, self.gauge.evaluator)
+        every = frozenset(self.limbs.names)
+        out = []
+        for i, (time, q) in enumerate(zip(times, at.q, strict=True)):
+            bounds = active(self.gauge.score, time, self.gauge.giving_way)
+            steering = self.gauge.steering(time)
+            one = Frames(at.frames.positions[i : i + 1], at.frames.rotations[i : i + 1])
+            targets = (c.target([time], one, self.gauge.evaluator)[0] for c in steering)
+            paths = [c.demand(t) for c, t in zip(steering, targets, strict=True)]
+            asking = (*bounds, *(c.travel.bound for c in steering))
+            demands = demands_of(bounds, time, paths)
+            through = every if passing is None else passing[i]
+            out.append(
+                solved(
+                    time, asking, demands, q, q, origin, through,
+                    limbs=self.limbs, solver=self.solver,
+                )
+            )  # fmt: skip
         return out
 
-    def _worst(
-        self, current: Movement, keys: Sequence[Fraction], frame_times: Sequence[Fraction]
-    ) -> list[Fraction]:
-        """Return the worst frame of every stretch between keys that has one out of tolerance."""
+    def refined(self, postures: Iterable[KeyPosture], frame_times: Sequence[Fraction]) -> Refined:
+        """Return key postures with those added that the frames need."""
+        out = sorted(postures, key=lambda p: p.time)
+        near: Sequence[Fraction] | None = None  # frames to look at; none for all
+        for _ in range(ROUNDS):
+            current, keys, at = self._measured(out, frame_times if near is None else near)
+            worst = self._worst(at, keys)
+            if worst:
+                out += self.solve(worst, current, Origin.ADDED)
+                out.sort(key=lambda p: p.time)
+                near = _near(worst, keys, frame_times)
+            elif near is None:
+                return Refined(tuple(out), current, at)
+            else:
+                near = None
+        current, _, at = self._measured(out, frame_times)
+        return Refined(tuple(out), current, at)
+
+    def _measured(
+        self, postures: Iterable[KeyPosture], frame_times: Iterable[Fraction]
+    ) -> tuple[Movement, list[Fraction], Instants]:
+        """Return the movement through postures, their times, and it at frames and keys."""
+        current = self.join(postures)
+        keys = sorted({p.time for p in postures})
+        at = instants(current, sorted({*frame_times, *keys}), self.gauge.evaluator)
+        return current, keys, at
+
+    def _worst(self, at: Instants, keys: Sequence[Fraction]) -> list[Fraction]:
+        """Return the worst instant of every stretch between keys that has one out of tolerance."""
         if len(keys) < 2:
             return []
-        at_keys = instants(current, keys, self.gauge.evaluator)
-        inside = [t for t in frame_times if keys[0] < t < keys[-1]]
-        if not inside:
-            return []
-        at = instants(current, inside, self.gauge.evaluator)
-        stretch = np.searchsorted(at_keys.seconds, at.seconds, side="right") - 1
-        ratio = self._ratios(at, at_keys, stretch)
+        key_s = np.array([float(t) for t in keys])
+        stretch = np.clip(np.searchsorted(key_s, at.seconds, side="right") - 1, 0, len(keys) - 2)
+        ratio = self._ratios(at, stretch, np.searchsorted(at.seconds, key_s))
         near = np.minimum(
-            at.seconds - at_keys.seconds[stretch], at_keys.seconds[stretch + 1] - at.seconds
+            np.abs(at.seconds - key_s[stretch]), np.abs(key_s[stretch + 1] - at.seconds)
         )
         ratio[near < CLOSEST_S] = 0.0
         out = []
-        for s in np.unique(stretch):
+        for s in np.unique(stretch[ratio > 1.0]):
             members = np.flatnonzero(stretch == s)
-            best = members[int(np.argmax(ratio[members]))]
-            if ratio[best] > 1.0:
-                out.append(at.times[int(best)])
+            out.append(at.times[int(members[int(np.argmax(ratio[members]))])])
         return out
 
-    def _ratios(self, at: Instants, at_keys: Instants, stretch: NDArray[np.int64]) -> Array:
-        """Largest residual at every frame over what is allowed there, (T,)."""
+    def _ratios(
+        self, at: Instants, stretch: NDArray[np.int64], key_rows: NDArray[np.int64]
+    ) -> Array:
+        """Largest residual at every instant over what is allowed there, (T,).
+
+        Args: stretch: (T,) which two keys an instant is between. key_rows: (K,) the keys' own rows.
+        """
         ratio = np.zeros(len(at.times))
         for bound in self.gauge.measurable:
             rows = self.gauge.inside(bound, at.seconds, enforced=True)
             if rows.start == rows.stop:
                 continue
+            residual = self.gauge.residual(bound, at.only(rows))
             first, last = int(stretch[rows.start]), int(stretch[rows.stop - 1]) + 2
             allowed = np.full(last - first, self.gauge.tolerance(bound) * MARGIN)
-            keys = self.gauge.inside(bound, at_keys.seconds, enforced=True)
-            keys = slice(max(keys.start, first), min(keys.stop, last))
-            if keys.start < keys.stop:
-                missed = self.gauge.residual(bound, at_keys.only(keys))
-                met = slice(keys.start - first, keys.stop - first)
-                allowed[met] = np.fmax(allowed[met], NO_WORSE * missed)
-            own = stretch[rows] - first
-            limit = np.maximum(allowed[own], allowed[own + 1])
-            residual = self.gauge.residual(bound, at.only(rows))
+            own = key_rows[first:last] - rows.start
+            inside = np.flatnonzero((own >= 0) & (own < len(residual)))
+            allowed[inside] = np.fmax(allowed[inside], NO_WORSE * residual[own[inside]])
+            between = stretch[rows] - first
+            limit = np.maximum(allowed[between], allowed[between + 1])
             ratio[rows] = np.fmax(ratio[rows], residual / limit)
         return ratio
+
+
+def _near(
+    added: Sequence[Fraction], keys: Sequence[Fraction], frame_times: Sequence[Fraction]
+) -> list[Fraction]:
+    """Return the frames in the stretches that added keys change."""
+    rows: set[int] = set()
+    for time in added:
+        k = bisect_left(keys, time)
+        first = keys[max(0, k - 1 - NEIGHBOURS)]
+        last = keys[min(len(keys) - 1, k + NEIGHBOURS)]
+        rows.update(range(bisect_left(frame_times, first), bisect_right(frame_times, last)))
+    return [frame_times[i] for i in sorted(rows)]

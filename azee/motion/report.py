@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.bound import Bound, BoundScore
-from azee.motion.gauge import TOLERANCE, Instants
+from azee.motion.gauge import TOLERANCE
 from azee.motion.plan import Plan
 from azee_rig.coordinates import Coordinates
 from azee_solver import describe
@@ -116,23 +116,20 @@ class MotionReport:
 
 
 def constraint_results(
-    score: BoundScore,
-    plan: Plan,
-    frames: Instants,
-    short: Mapping[int, float],
-    dominant: Side,
+    score: BoundScore, plan: Plan, short: Mapping[int, float], dominant: Side
 ) -> tuple[ConstraintResult, ...]:
     """Measure every requirement at the clip's frames and at the keys inside its block.
 
-    Args: frames: the movement without what trills lay on it. short: angles by which trills fall
-        short, by rank.
+    What trills lay on top is not counted against the constraints that they swing about.
+
+    Args: short: angles by which trills fall short, by rank.
     """
     measurable = {b.requirement.rank for b in plan.gauge.measurable}
     out = []
     for bound in score.all:
         rank = bound.requirement.rank
         if rank in measurable:
-            out.append(_measured(bound, plan, frames, dominant))
+            out.append(_measured(bound, plan, dominant))
         elif isinstance(bound.constraint, Trill):
             out.append(_trill(bound, short.get(rank, 0.0), dominant))
         else:
@@ -140,10 +137,10 @@ def constraint_results(
     return tuple(out)
 
 
-def _measured(bound: Bound, plan: Plan, frames: Instants, dominant: Side) -> ConstraintResult:
+def _measured(bound: Bound, plan: Plan, dominant: Side) -> ConstraintResult:
     gauge = plan.gauge
-    rows = gauge.inside(bound, frames.seconds)
-    values = gauge.residual(bound, frames.only(rows))
+    rows = gauge.inside(bound, plan.instants.seconds)
+    values = gauge.residual(bound, plan.instants.only(rows))
     residual = float(np.max(values, initial=0.0))
     unit, tolerance = gauge.unit(bound), gauge.tolerance(bound)
     reason = None

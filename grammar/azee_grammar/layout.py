@@ -1,8 +1,8 @@
 """Lines into items: indentation, parentheses that span lines, and what may be wrong with either.
 
-An item is a line at the margin with all deeper lines below it. Nothing that is wrong in one item
-reaches the next: an unclosed parenthesis ends where the next item begins. A line at the margin that
-begins with `)` still belongs to the item above.
+An item is a line at the margin with all deeper lines below it, and with what stands in its
+parentheses, however that is indented. Nothing that is wrong in one item reaches the next: a
+parenthesis that is never closed ends where the next line stands at the margin.
 """
 
 from __future__ import annotations
@@ -11,8 +11,10 @@ import re
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.parens import Closings
 from azee_grammar.source import Source, Span
 from azee_grammar.token import BAD, Token
 from azee_grammar.words import WordReader
@@ -62,7 +64,7 @@ class LayoutReader:
             prefix = self._text[start:first]
             if self._margin is None:
                 self._margin = prefix
-            if prefix == self._margin and not self._continues(first):
+            if prefix == self._margin and not self._continues(start, first):
                 yield from self._finish()
                 self._levels = [prefix]
                 self._skipping = False
@@ -90,9 +92,15 @@ class LayoutReader:
                 yield at, first, end
             at = line.end()
 
-    def _continues(self, first: int) -> bool:
-        """Whether a line at the margin closes a parenthesis of the item above."""
-        return self._text[first] == ")" and (bool(self._open) or self._skipping)
+    def _continues(self, start: int, first: int) -> bool:
+        """Whether a line at the margin stands in parentheses of the item above."""
+        if self._skipping:
+            return self._text[first] == ")"
+        return bool(self._open) and self._closings.closes(start, len(self._open))
+
+    @cached_property
+    def _closings(self) -> Closings:
+        return Closings(self._text)
 
     def _placed(self, prefix: str, start: int, first: int) -> bool:
         """Relate a line to the lines above by its prefix; False where that cannot be done."""
@@ -204,7 +212,7 @@ class LayoutReader:
                     "unclosed-paren",
                     f"this parenthesis is never closed{inner if count > 1 else ''}",
                     Span(self.source, opened.start, opened.end),
-                    help="close it before the next line that begins at the margin",
+                    help="close it before the next line that is not indented",
                 )
             )
         end = tokens[at].start

@@ -181,7 +181,7 @@ class Mistakes:
                 self._span(before),
                 help=f"write `'{before.text} = …`",
             )
-        if before.kind == "SYMBOL":
+        if before.kind == "SYMBOL" and self._inside(index) is None:
             return Diagnostic(
                 "syntax", message, span, help="here the value follows its name without `=`"
             )

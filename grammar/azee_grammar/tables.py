@@ -132,6 +132,12 @@ def generate(grammar: str) -> dict[str, Any]:
     }
 
 
+def serialized(data: dict[str, Any]) -> str:
+    """Return tables as the committed file holds them: a line for each state and production."""
+    lines = [f"  {json.dumps(key)}: {_pretty(value)}" for key, value in data.items()]
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
 def _production(rule: Any) -> list[Any]:
     origin = rule.origin.name
     action = rule.alias or (None if origin.startswith("_") else origin)
@@ -147,9 +153,7 @@ def _production(rule: Any) -> list[Any]:
 
 def main() -> None:
     """Renew the committed file."""
-    data = generate(GRAMMAR.read_text(encoding="utf-8"))
-    lines = [f"  {json.dumps(key)}: {_pretty(value)}" for key, value in data.items()]
-    text = "{\n" + ",\n".join(lines) + "\n}\n"
+    text = serialized(generate(GRAMMAR.read_text(encoding="utf-8")))
     TABLES.write_text(text, encoding="utf-8", newline="\n")
 
 

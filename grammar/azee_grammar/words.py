@@ -49,11 +49,13 @@ class WordReader:
         self.text = source.text
         self.report = report
         self.comments = comments
+        self._foreign = False  # whether a bracket of another language was reported on this line
 
     def read(self, start: int, end: int) -> list[Token]:
         """Return the tokens of `text[start:end]`, the part of a line after its indentation."""
         text = self.text
         tokens: list[Token] = []
+        self._foreign = False
         at = start
         spaced = True
         while at < end:
@@ -181,7 +183,9 @@ class WordReader:
             self.report(misspelt.bad_number(span))
             return Token("NUMBER", start, stop, "0")
         if problem := misspelt.bracket(span):
-            self.report(problem)
+            if not self._foreign:
+                self.report(problem)
+            self._foreign = True
             return Token(BAD, start, stop)
         return Token("OPERATOR", start, stop, self._visible(word, start))
 

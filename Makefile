@@ -16,7 +16,7 @@ help: ## what there is
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
 
 demo: $(READY) ## compile an example; prints where the GLB, the BVH and the picture are
-	@$(RUN) examples/build.py --out out/demo --only person-52 --open
+	@$(RUN) examples/build.py --out out/demo --only person-aged-52
 
 test: $(READY) node ## all tests; those for Node and Chromium where these are installed
 	@$(RUN) -m pytest

@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 from xml.sax.saxutils import escape
 
+from azee.export.files import replace_file
 from azee.export.score_layout import GAP, LEAF_HEIGHT, Box, boundaries, flattened, nested
 from azee.score.score import Blank, Group, Hold, Score
 
@@ -56,6 +58,15 @@ class _Axis:
 
     def x(self, time: Fraction) -> float:
         return MARGIN + float(time) * self.scale
+
+
+def write_svg(score: Score, path: str | Path) -> None:
+    """Draw a score into a file.
+
+    Raises: OSError: the file cannot be written.
+    """
+    with replace_file(path) as file:
+        file.write(draw(score).encode())
 
 
 def draw(score: Score) -> str:

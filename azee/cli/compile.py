@@ -1,0 +1,139 @@
+"""`azee compile`: from a text to files with the moving body."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from azee.cli.console import DONE, MISSED, Progress, as_json, news, show, show_json, working
+from azee.cli.outcome import outcome
+from azee.cli.outputs import check_outputs, with_suffix
+from azee.cli.text import Text, dominant_option, text_options
+from azee.compilation import SUFFIXES, perform
+
+if TYPE_CHECKING:
+    from azee.compilation import Hand
+    from azee.motion.animate import Mode
+    from azee_rig.rig import Rig
+
+
+def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
+    """Refuse NaN, which lies in every range."""
+    if math.isnan(value):
+        raise click.BadParameter("it is not a number")
+    return value
+
+
+@click.command("compile", short_help="A text as GLB, BVH, JSON, SVG or PNG.")
+@text_options
+@click.option(
+    "-o",
+    "outputs",
+    metavar="OUT",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    callback=with_suffix(*SUFFIXES),
+    help=f"A file to write; its suffix is the format: {' '.join(SUFFIXES)}. "
+    "Repeatable: all come from one solution.",
+)
+@click.option(
+    "--rig", metavar="R", default="signer", show_default=True, help="A body by name, or its folder."
+)
+@click.option(
+    "--fps",
+    type=click.FloatRange(1, 1000),
+    default=30,
+    show_default=True,
+    callback=_a_number,
+    help="Frames a second.",
+)
+@dominant_option
+@click.option(
+    "--mode",
+    type=click.Choice(["flat"]),
+    default="flat",
+    show_default=True,
+    help="How blocks become movement; flat: on one time line, as in the 2018 paper.",
+)
+@click.option("--no-life", is_flag=True, help="No breathing and no blinking.")
+@click.option(
+    "--report",
+    metavar="R.json",
+    type=click.Path(path_type=Path),
+    callback=with_suffix(".json"),
+    help="Write what was solved and how well.",
+)
+@click.option("--strict", is_flag=True, help="Exit with 3 if a constraint is out of tolerance.")
+@click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    help="json: one object with diagnostics, outputs and the report on standard output.",
+)
+def compile_(
+    file: str | None,
+    expression: str | None,
+    utterance: int | None,
+    libraries: Sequence[Path],
+    outputs: Sequence[Path],
+    rig: str,
+    fps: float,
+    dominant: Hand,
+    mode: Mode,
+    no_life: bool,
+    report: Path | None,
+    strict: bool,
+    quiet: bool,
+    form: str,
+) -> int:
+    """Compile FILE (`-` is standard input) to a signing body.
+
+    Exit codes: 0 done; 1 the input is at fault; 2 wrong use; 3 a constraint is out of tolerance
+    and --strict is given.
+    """
+    quiet = quiet or form == "json"
+    check_outputs([*outputs, *([report] if report else [])])
+    body = _rig(rig)
+    text = Text.read(file, expression, utterance, libraries)
+    score = text.score(dominant)
+    with working("Solving …", quiet=quiet) as progress:
+        _prepare(progress)
+        made = perform(score, body, dominant=dominant, fps=fps, mode=mode, life=not no_life)
+        for path in outputs:
+            progress.now(f"Writing {path} …")
+            made.save(path)
+    if report:
+        made.save_report(report)
+    if form == "json":
+        show_json(
+            {
+                "diagnostics": as_json(text.warnings),
+                "outputs": [str(path) for path in outputs],
+                "report": made.report.as_json(),
+            }
+        )
+    else:
+        show(text.warnings)
+        news(outcome(made, [*outputs, *([report] if report else [])]), quiet=quiet)
+    return MISSED if strict and not made.report.met else DONE
+
+
+def _rig(name: str) -> Rig:
+    from azee_rig.load import RigError, load_rig
+
+    try:
+        return load_rig(name)
+    except RigError as error:
+        raise click.BadParameter(str(error), param_hint="'--rig'") from error
+
+
+def _prepare(progress: Progress) -> None:
+    """Load the solver, whose kernels are compiled when it is used for the first time."""
+    with progress.patience("Preparing the solver: the first run after installing takes longer …"):
+        import azee.motion.animate  # noqa: F401 - for what loading it does

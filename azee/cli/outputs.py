@@ -1,0 +1,48 @@
+"""Files that a command is to write: known formats, and places that can be written."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from azee.compilation import cannot_write
+from azee_grammar.diagnostic import AZeeError
+
+
+def with_suffix(*suffixes: str) -> Callable[..., Any]:
+    """Return an option's callback that refuses paths whose suffix names none of some formats."""
+
+    def checked(_: click.Context, __: click.Parameter, value: Any) -> Any:
+        for path in value if isinstance(value, tuple) else (value,):
+            if path is not None and path.suffix.lower() not in suffixes:
+                raise click.BadParameter(
+                    f"`{path}`: the suffix is the format: {' '.join(suffixes)}"
+                )
+        return value
+
+    return checked
+
+
+def check_outputs(paths: Iterable[Path]) -> None:
+    """Refuse, before any work is done, what could not be written at its end.
+
+    Raises: AZeeError: cannot-write, one diagnostic for each.
+    """
+    found = [cannot_write(path, error) for path in paths if (error := _obstacle(path))]
+    if found:
+        raise AZeeError(*found)
+
+
+def _obstacle(path: Path) -> OSError | None:
+    folder = path.resolve().parent
+    if path.is_dir():
+        return IsADirectoryError()
+    if not folder.exists():
+        return FileNotFoundError()
+    if not folder.is_dir():
+        return NotADirectoryError()
+    return None if os.access(folder, os.W_OK) else PermissionError()

@@ -1,0 +1,103 @@
+"""The AZee text a command is given: a file, standard input or an expression, with libraries."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+if TYPE_CHECKING:
+    from azee.compilation import Hand
+    from azee.lang.program import Program
+    from azee.score.score import Score
+    from azee_grammar.diagnostic import Diagnostic
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+library_option = click.option(
+    "--library",
+    "libraries",
+    metavar="DIR",
+    multiple=True,
+    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    help="A folder of rules that `use` may name; repeatable.",
+)
+"""`--library DIR`, of every command that reads rules."""
+
+dominant_option = click.option(
+    "--dominant",
+    type=click.Choice(["right", "left"]),
+    default="right",
+    show_default=True,
+    help="The signer's strong hand.",
+)
+"""`--dominant HAND`, of every command that tells strong and weak apart."""
+
+
+def text_options(command: Command) -> Command:
+    """Add the argument FILE and the options -e, --utterance and --library to a command."""
+    options = (
+        click.argument("file", required=False, metavar="[FILE]"),
+        click.option(
+            "-e",
+            "expression",
+            metavar="EXPR",
+            help="An expression, instead of FILE's utterances; it sees FILE's rules.",
+        ),
+        click.option(
+            "--utterance",
+            metavar="N",
+            type=click.IntRange(min=1),
+            help="Only FILE's Nth utterance; by default all play, one after the other.",
+        ),
+        library_option,
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+@dataclass(frozen=True)
+class Text:
+    """A program, and which part of it is wanted."""
+
+    program: Program
+    expression: str | None
+    utterance: int | None
+
+    @classmethod
+    def read(
+        cls,
+        file: str | None,
+        expression: str | None,
+        utterance: int | None,
+        libraries: Sequence[Path],
+    ) -> Text:
+        """Read what the command line names.
+
+        Raises: click.UsageError: too little or too much of it. AZeeError: it cannot be read.
+        """
+        from azee.lang.program import load
+        from azee_grammar.files import read_source
+        from azee_grammar.source import Source
+
+        if file is None and expression is None:
+            raise click.UsageError("name a FILE (`-` is standard input) or give an expression, -e")
+        if expression is not None and utterance is not None:
+            raise click.UsageError("--utterance counts FILE's own and does not go with -e")
+        source = Source("<none>", "") if file is None else read_source(file)
+        return cls(load(source, libraries), expression, utterance)
+
+    def score(self, dominant: Hand = "right") -> Score:
+        """Evaluate what is wanted. Raises: AZeeError: all that is wrong with it."""
+        from azee.compilation import score_of
+
+        return score_of(self.program, self.expression, self.utterance, dominant)
+
+    @property
+    def warnings(self) -> tuple[Diagnostic, ...]:
+        """What else there is to say about the text."""
+        return self.program.check()

@@ -1,0 +1,69 @@
+"""Compiles every example to every format, through the command that a reader would type.
+
+An example is an .azee file in a folder here. Its outputs go to OUT/FOLDER; with --keep-pictures
+the PNG is also kept in the example's folder, beside its source.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+import shutil
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from azee.cli.main import run
+from azee.compilation import SUFFIXES
+
+HERE = Path(__file__).parent
+
+
+def examples() -> Iterator[Path]:
+    """Yield the sources of all examples, by folder and name."""
+    return iter(sorted(HERE.glob("*/*.azee")))
+
+
+def command(source: Path, out: Path) -> list[str]:
+    """Return the arguments of `azee` that write an example in every format, and its report."""
+    folder = out / source.parent.name
+    names = [folder / f"{source.stem}{suffix}" for suffix in SUFFIXES]
+    outputs = [argument for name in names for argument in ("-o", str(name))]
+    return [
+        "compile",
+        str(source),
+        *outputs,
+        "--report",
+        str(folder / f"{source.stem}.report.json"),
+    ]
+
+
+def main() -> int:
+    """Build what is asked for; returns the first exit code that is not zero."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, required=True, help="where the outputs go")
+    parser.add_argument("--only", metavar="FOLDER", help="only the examples of one folder")
+    parser.add_argument(
+        "--keep-pictures", action="store_true", help="refresh the folders' pictures"
+    )
+    options = parser.parse_args()
+    chosen = [source for source in examples() if options.only in (None, source.parent.name)]
+    if not chosen:
+        parser.error(f"there is no example `{options.only}`")
+    for source in chosen:
+        (options.out / source.parent.name).mkdir(parents=True, exist_ok=True)
+        arguments = command(source, options.out)
+        print(f"$ azee {shlex.join(arguments)}", flush=True)
+        began = time.perf_counter()
+        if code := run(arguments):
+            return code
+        print(f"  took {time.perf_counter() - began:.1f} s\n", flush=True)
+        if options.keep_pictures:
+            name = source.with_suffix(".png").name
+            shutil.copyfile(options.out / source.parent.name / name, source.with_suffix(".png"))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,42 @@
+"""Commands load what they need and no more: this is what keeps them quick."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from programs import Python
+
+TEXT = "key 1\n    cstr\n        place @I_TIP(s) @CH\n        orient 'nrm !palm(s) 'along ^up\n"
+HEAVY = ("PIL", "lark", "nlopt", "numba", "numpy", "rich", "scipy", "trimesh")
+SCRIPT = """
+import json, sys
+from azee.cli.main import run
+code = run(sys.argv[2:])
+json.dump([name for name in sys.argv[1].split() if name in sys.modules], sys.stderr)
+sys.exit(code)
+"""
+LOADS: dict[tuple[str, ...], set[str]] = {
+    ("--help",): set(),
+    ("compile", "--help"): set(),
+    ("check", "--quiet", "text.azee"): {"lark"},
+    ("check", "--format", "json", "text.azee"): {"lark"},
+    ("score", "text.azee"): {"lark"},
+    ("score", "text.azee", "-o", "score.svg"): {"lark"},
+}
+"""Of the heavy packages, those that a command may load."""
+
+
+@pytest.mark.parametrize("arguments", LOADS, ids=" ".join)
+def test_a_command_loads_no_more_than_it_needs(
+    arguments: tuple[str, ...], python: Python, tmp_path: Path
+) -> None:
+    (tmp_path / "text.azee").write_text(TEXT, encoding="utf-8")
+    done = python("-c", SCRIPT, " ".join(HEAVY), *arguments, expect=0)
+    assert set(json.loads(done.stderr)) <= LOADS[arguments]
+
+
+def test_importing_the_package_loads_none_of_them(python: Python) -> None:
+    script = "import azee, json, sys; json.dump([m for m in sys.argv[1].split() if m in sys.modules], sys.stdout)"
+    assert json.loads(python("-c", script, " ".join(HEAVY), expect=0).stdout) == []

@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from itertools import pairwise
+from unicodedata import category
 
 from hypothesis import given
 from hypothesis import strategies as st

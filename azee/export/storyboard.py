@@ -16,6 +16,9 @@ VIEWS = ("front", "side")
 MOST = 8
 """Moments in one picture; of more, an even choice is shown."""
 SIZE = (360, 450)
+SAME_RAD = np.radians(3.0)
+SAME_WEIGHT = 0.2
+"""Up to which postures and faces look the same."""
 
 
 def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) -> None:
@@ -25,7 +28,8 @@ def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) 
     """
     from azee.export.picture import contact_sheet, picture
 
-    chosen = even_choice(sorted({_frame(clip, moment) for moment in moments}), MOST)
+    frames = sorted({int(np.abs(clip.times - moment).argmin()) for moment in moments})
+    chosen = even_choice(_different(clip, frames), MOST)
     pictures = []
     for view in VIEWS:
         for frame in chosen:
@@ -38,8 +42,17 @@ def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) 
         file.write(data.getvalue())
 
 
-def _frame(clip: Clip, moment: float) -> int:
-    return int(np.abs(clip.times - moment).argmin())
+def _different(clip: Clip, frames: Sequence[int]) -> list[int]:
+    """Leave out frames that show what the frame before showed: a posture that is held."""
+    chosen: list[int] = []
+    for frame in frames:
+        if chosen:
+            turned = np.abs(clip.coordinates[frame] - clip.coordinates[chosen[-1]]).max()
+            shaped = np.abs(clip.unit_weights[frame] - clip.unit_weights[chosen[-1]])
+            if turned < SAME_RAD and shaped.max(initial=0) < SAME_WEIGHT:
+                continue
+        chosen.append(frame)
+    return chosen
 
 
 def even_choice(frames: Sequence[int], most: int) -> list[int]:

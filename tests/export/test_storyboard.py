@@ -20,8 +20,9 @@ def test_a_column_per_moment_and_a_row_per_view(signer: Rig, tmp_path: Path) -> 
     c = signer.coordinates
     raised = c.idle.copy()
     raised[c.index["arm_R.flexion"]] = np.radians(100)
-    clip = Clip(np.array([0.0, 0.5, 1.0]), np.array([c.idle, raised, c.idle]), (), np.zeros((3, 0)))
-    write_png(clip, signer, tmp_path / "b.png", [0.0, 0.01, 0.52])
+    postures = np.array([c.idle, raised, raised + 1e-3, c.idle])
+    clip = Clip(np.array([0.0, 0.5, 0.75, 1.0]), postures, (), np.zeros((4, 0)))
+    write_png(clip, signer, tmp_path / "b.png", [0.0, 0.01, 0.52, 0.74])
     image = Image.open(tmp_path / "b.png")
     assert image.width == 2 * SIZE[0]
     assert image.height >= len(VIEWS) * SIZE[1]

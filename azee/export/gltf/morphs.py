@@ -50,7 +50,7 @@ def morph_targets(mesh: BodyMesh) -> Iterator[MorphTarget]:
         vertices[rows] += deltas
         moved = np.zeros(len(vertices), bool)
         moved[rows] = True
-        touched = np.flatnonzero(moved[T].any(axis=1))
+        touched = np.flatnonzero(moved[T[:, 0]] | moved[T[:, 1]] | moved[T[:, 2]])
         change = _cross(vertices, T[touched]) - faces[touched]
         around, place = np.unique(T[touched], return_inverse=True)
         place = place.reshape(-1, 3)

@@ -1,0 +1,293 @@
+"""Solving one group of problems: descents from several starts until one meets everything."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.chain import Frames
+from azee_solver import kernels
+from azee_solver.anatomy import Anatomy, Part, anatomy, part_of
+from azee_solver.binding import Binding
+from azee_solver.collisions import Obstacles, segment_distance
+from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
+from azee_solver.demand import Demand
+from azee_solver.evaluate import Evaluator
+from azee_solver.nlopt_backend import minimise
+from azee_solver.options import SolveOptions
+from azee_solver.program import Collisions, Cost, Program, Row
+from azee_solver.residuals import Residuals, lower
+from azee_solver.starts import starts
+from azee_solver.tape import Tape
+
+if TYPE_CHECKING:
+    from azee_rig.rig import Rig
+
+Array = NDArray[np.float64]
+
+LEVEL_RAD = math.radians(2.0)
+"""How far a head that nothing turns may tilt with the trunk before it costs as much as a miss."""
+GAZING_LEVEL_RAD = math.radians(5.0)
+"""The same for its tilt while the eyes are led."""
+EYE_STIFFNESS, NECK_STIFFNESS = 0.1, 3.0
+"""Of eyes and neck while the eyes are led; the head has 1. They turn first, it last."""
+EYE_COMFORT = 300.0
+"""Keeps led eyes in the middle of their range, so that the head takes the rest."""
+
+AGREE = 0.02
+"""Descents whose costs differ by less than this part ended alike."""
+POLISH, POLISH_EASE = 5.0, 0.01
+"""Misses below so many tolerances are tried again with posture and comfort at this part."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Result:
+    """A posture that a group of problems ended in.
+
+    q: (V,). ratios: residual per demand, in tolerances. cost: sum of their squares. overlap_m: of
+    the capsules, deepest. undefined: demands whose target has no direction.
+    """
+
+    q: Array
+    ratios: Mapping[int, float]
+    cost: float
+    overlap_m: float
+    undefined: frozenset[int]
+
+    def missed(self) -> frozenset[int]:
+        """Demands that are not met."""
+        return frozenset(i for i, r in self.ratios.items() if not r <= 1.0) | self.undefined
+
+
+@dataclass(slots=True)
+class Body:
+    """What solving one moment needs of the rig; counts evaluations."""
+
+    rig: Rig
+    evaluator: Evaluator
+    reference: Array
+    presets: Mapping[int, float]
+    options: SolveOptions
+    constraints: Sequence[Constraint]
+    evaluations: int = 0
+    anatomy: Anatomy = field(init=False)
+    obstacles: Obstacles = field(init=False)
+    _all: Program = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.anatomy = anatomy(self.rig.chain, self.rig.coordinates)
+        self.obstacles = Obstacles(self.evaluator.binding, self.anatomy, self.constraints)
+        moving = np.ones(len(self.rig.chain.names), dtype=np.bool_)
+        blank = Frames(np.zeros((len(moving), 3)), np.zeros((len(moving), 3, 3)))
+        nothing = np.zeros(len(self.reference))
+        every = range(len(self.reference))
+        tape = Tape(self.evaluator, blank, moving)
+        cost = Cost(nothing, nothing, nothing, 0.0)
+        self._all = Program(
+            self.rig, nothing, every, tape, [], Collisions.none(), cost, all_frames=True
+        )
+
+    def frames(self, q: Array) -> Frames:
+        """Frames of one posture, by the kernels: a hundred times faster than `Chain.frames`."""
+        self._all(np.ascontiguousarray(q), np.empty(0))
+        count = len(self.rig.chain.names)
+        return Frames(
+            self._all.section(kernels.POSITIONS).reshape(count, 3).copy(),
+            self._all.section(kernels.ROTATIONS).reshape(count, 3, 3).copy(),
+        )
+
+
+def solve_group(
+    body: Body,
+    demands: Mapping[int, Demand],
+    q: Array,
+    free: frozenset[int],
+    *,
+    unsettled: frozenset[int] = frozenset(),
+    ease: Mapping[int, float] | None = None,
+    first: Sequence[Array] = (),
+    only_first: bool = False,
+    thorough: bool = True,
+) -> Result:
+    """Return the best posture found for some demands when some coordinates may move.
+
+    Args: q: (V,) the posture so far. unsettled: coordinates that other problems will still move.
+        ease: factors of the demands' weights. first: postures (V,) to start from before the
+        others, or instead of them. thorough: look on while the body is in the way; else leave
+        that to a wider problem.
+    """
+    attempt = _Attempt(body, demands, q, free, unsettled, ease or {})
+    if not attempt.residuals.rows:
+        return Result(q, {}, 0.0, 0.0, attempt.residuals.undefined)
+    indices = attempt.program.free
+    at_hand: list[Array] = [p[indices] for p in first]
+    if not only_first:
+        further = body.options.further_starts
+        at_hand += list(starts(body.rig.coordinates, indices, q, further))
+    best = attempt.search(at_hand, thorough)
+    body.evaluations += attempt.program.evaluations
+    return best
+
+
+def _merit(result: Result, options: SolveOptions) -> tuple[int, float, float]:
+    """Return misses, then overlap beyond what is tolerated, then cost: the less the better."""
+    excess = max(result.overlap_m - options.overlap_m, 0.0) / options.tolerance.length_m
+    return len(result.missed()), excess, result.cost + excess**2
+
+
+def _turns_head(constraint: Constraint, binding: Binding) -> bool:
+    match constraint:
+        case Place(site):
+            return part_of(binding.site(site).bone) is Part.HEAD
+        case Orient(_, bone) | Rotate(bone):
+            return part_of(bone.name) is Part.HEAD
+        case _:
+            return False
+
+
+class _Attempt:
+    """The objective of a group, and descents on it."""
+
+    def __init__(
+        self,
+        body: Body,
+        demands: Mapping[int, Demand],
+        q: Array,
+        free: frozenset[int],
+        unsettled: frozenset[int],
+        ease: Mapping[int, float],
+    ) -> None:
+        self.body, self.demands, self.q = body, demands, q
+        options = body.options
+        moving = body.anatomy.moved_by(free)
+        frames = body.frames(q)
+        tape = Tape(body.evaluator, frames, moving)
+        self.residuals: Residuals = lower(tape, demands, options.tolerance, ease)
+        rows = [*self.residuals.rows, *self._level(tape, free)]
+        self.collisions = body.obstacles.for_problem(frames, free, unsettled - free)
+        self.cost = self._cost(free)
+        self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, self.cost)
+
+    def search(self, at_hand: Sequence[Array], thorough: bool) -> Result:
+        """Return the best end of descents, ending early when all is met or several agree."""
+        options = self.body.options
+        best: Result | None = None
+        agreeing = 0
+        tried: set[bytes] = set()
+        for start in at_hand:
+            if start.tobytes() in tried:
+                continue
+            tried.add(start.tobytes())
+            result = self._polished(self.descend(start))
+            agree = best is not None and abs(result.cost - best.cost) < AGREE * best.cost
+            agree = agree and (not thorough or result.overlap_m <= options.overlap_m)
+            agreeing = agreeing + 1 if agree else agreeing
+            if best is None or _merit(result, options) < _merit(best, options):
+                agreeing = agreeing if agree else 0
+                best = result
+            if not any(_merit(best, options)[:2]) or agreeing >= options.agreeing_starts:
+                break
+        assert best is not None
+        return best
+
+    def _polished(self, result: Result) -> Result:
+        """Descend once more without the price of an easy posture, if a small miss may be that."""
+        worst = max(result.ratios.values(), default=0.0)
+        if not 1.0 < worst < POLISH:
+            return result
+        posture = self.program.section(kernels.POSTURE).reshape(-1, 5)
+        kept = posture.copy()
+        easy = np.array([v not in self.body.presets for v in self.program.free])
+        posture[easy, 1] *= POLISH_EASE
+        posture[:, 4] *= POLISH_EASE
+        closer = self.descend(result.q[self.program.free])
+        posture[:] = kept
+        return min(result, closer, key=lambda r: _merit(r, self.body.options))
+
+    def descend(self, start: Array) -> Result:
+        """Return where a descent from a start ends."""
+        options = self.body.options
+        program = self.program
+        found = minimise(
+            program,
+            start,
+            program.lower,
+            program.upper,
+            max_evaluations=options.max_evaluations,
+            tolerance=options.descent_tolerance,
+        )
+        return self._measure(found.x)
+
+    def _measure(self, x: Array) -> Result:
+        self.program(x, np.empty(0))
+        ratios = self.residuals.ratios(
+            self.program.gaps(), self.demands, self.body.options.tolerance
+        )
+        q = self.q.copy()
+        q[self.program.free] = x
+        return Result(
+            q,
+            ratios,
+            sum(r * r for r in ratios.values()),
+            self._deepest_overlap(),
+            self.residuals.undefined,
+        )
+
+    def _deepest_overlap(self) -> float:
+        program = self.program
+        if not len(self.collisions.pairs):
+            return 0.0
+        ends = program.section(kernels.ENDS).reshape(-1, 2, 3)
+        start, stop = program.ints[kernels.PAIRS], program.ints[kernels.PAIRS + 1]
+        i, j = program.ints[start:stop].reshape(-1, 2).T
+        distance = segment_distance(ends[i, 0], ends[i, 1], ends[j, 0], ends[j, 1])
+        return max(0.0, float((self.collisions.reach - distance).max()))
+
+    def _cost(self, free: frozenset[int]) -> Cost:
+        """Posture and comfort weights: presets hold like constraints, led eyes turn first."""
+        options, anatomy_ = self.body.options, self.body.anatomy
+        reference = np.array(self.body.reference)
+        stiffness = np.array(self.body.rig.coordinates.stiffness)
+        comfort = np.full(len(reference), options.comfort)
+        if any(isinstance(d.constraint, Look | LookAt) for d in self.demands.values()):
+            for v in anatomy_.of(Part.EYES):
+                stiffness[v], comfort[v] = EYE_STIFFNESS, EYE_COMFORT
+            for v in anatomy_.of(Part.HEAD):
+                if anatomy_.names[v].startswith("neck"):
+                    stiffness[v] = NECK_STIFFNESS
+        keep = options.posture * stiffness**2
+        for v, angle in self.body.presets.items():
+            if v in free:
+                reference[v] = angle
+                keep[v] = options.tolerance.angle_rad**-2
+                comfort[v] = 0.0
+        return Cost(reference, keep, comfort, options.overlap)
+
+    def _level(self, tape: Tape, free: frozenset[int]) -> list[Row]:
+        """Rows that keep the head as it was while the trunk moves under it."""
+        anatomy_, rig = self.body.anatomy, self.body.rig
+        if not free & anatomy_.of(Part.TRUNK) or not free & anatomy_.of(Part.HEAD):
+            return []
+        if any(
+            _turns_head(d.constraint, self.body.evaluator.binding) for d in self.demands.values()
+        ):
+            return []
+        node = rig.bones["head"].node
+        level = self.body.frames(self.body.reference).rotations[node]
+        gaze = any(isinstance(d.constraint, Look | LookAt) for d in self.demands.values())
+        columns = (1,) if gaze else (0, 1, 2)
+        weight = GAZING_LEVEL_RAD**-2 if gaze else 0.5 * LEVEL_RAD**-2
+        return [
+            Row(
+                kernels.MEET,
+                tape.node_vector(node, np.eye(3)[k]),
+                tape.constant(level[:, k]),
+                weight,
+            )
+            for k in columns
+        ]

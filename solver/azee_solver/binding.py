@@ -1,0 +1,124 @@
+"""Binding: the step from AZee's names of a body to the nodes, sites and morphs of one rig."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Origin,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
+from azee_solver.geometry import Bone, Side, Site, depends_on
+
+if TYPE_CHECKING:
+    from azee_rig.rig import BoneNodes, Rig, RigSite
+
+
+class BindingError(Exception):
+    """A rig lacks what a constraint names.
+
+    code: `rig-lacks-bone`, `rig-lacks-site` or `rig-lacks-morph`. name: as the rig would call it.
+    origin: where the constraint was written, if known.
+    """
+
+    def __init__(self, code: str, name: str, origin: Origin | None = None) -> None:
+        super().__init__(f"{code}: {name}")
+        self.code, self.name, self.origin = code, name, origin
+
+
+class Binding:
+    """The names of one rig, for a signer whose dominant hand is known."""
+
+    def __init__(self, rig: Rig, dominant: Side) -> None:
+        if dominant not in (Side.LEFT, Side.RIGHT):
+            raise ValueError("the dominant hand is the left or the right one")
+        self.rig, self.dominant = rig, dominant
+
+    def bone(self, bone: Bone) -> BoneNodes:
+        """Nodes of a bone. Raises BindingError."""
+        key = bone.key(self.dominant)
+        try:
+            return self.rig.bones[key]
+        except KeyError:
+            raise BindingError("rig-lacks-bone", key) from None
+
+    def site(self, site: Site) -> RigSite:
+        """Return a site on the skin. Raises BindingError."""
+        key = site.key(self.dominant)
+        try:
+            return self.rig.sites[key]
+        except KeyError:
+            raise BindingError("rig-lacks-site", key) from None
+
+    def is_skeletal(self, morph: Morph) -> bool:
+        """Whether a morph moves joints, not the face. Raises BindingError."""
+        key = morph.key(self.dominant)
+        if key in self.rig.skeletal_morphs:
+            return True
+        if key in self.rig.face_morphs:
+            return False
+        raise BindingError("rig-lacks-morph", key, morph.origin)
+
+    def preset(self, morph: Morph) -> dict[int, float]:
+        """Coordinates that a skeletal morph moves, and the angle at its weight, radians."""
+        index = self.rig.coordinates.index
+        angles = self.rig.skeletal_morphs[morph.key(self.dominant)]
+        return {index[name]: morph.weight * angle for name, angle in angles.items()}
+
+    def presets(self, constraints: Iterable[Constraint]) -> dict[int, float]:
+        """Angles that all skeletal morphs in force at one moment ask for together: they add."""
+        total: dict[int, float] = {}
+        for constraint in constraints:
+            if isinstance(constraint, Morph) and self.is_skeletal(constraint):
+                for v, angle in self.preset(constraint).items():
+                    total[v] = total.get(v, 0.0) + angle
+        return total
+
+    def check(self, constraint: Constraint) -> None:
+        """Raise BindingError, with the constraint's origin, for the first name the rig lacks."""
+        try:
+            if isinstance(constraint, Morph):
+                self.is_skeletal(constraint)
+            for name in _names(constraint):
+                if isinstance(name, Bone):
+                    self.bone(name)
+                else:
+                    self.site(name)
+        except BindingError as error:
+            raise BindingError(error.code, error.name, constraint.origin) from None
+
+
+def _names(constraint: Constraint) -> list[Bone | Site]:
+    names: list[Bone | Site] = []
+    match constraint:
+        case Place(site, point):
+            names += [site, *_ordered(depends_on(point))]
+        case Orient(_, bone, _, vector):
+            names += [bone, *_ordered(depends_on(vector))]
+        case Look(vector):
+            names += [*EYES, *_ordered(depends_on(vector))]
+        case LookAt(point):
+            names += [*EYES, *_ordered(depends_on(point))]
+        case Trill(bone, axis) | Rotate(bone, axis):
+            names += [bone, *_ordered(depends_on(axis))]
+        case Transpath(site, path):
+            names += [site, *_ordered(depends_on(path))]
+        case Morph():
+            pass
+    return names
+
+
+def _ordered(found: Iterable[Bone | Site]) -> list[Bone | Site]:
+    return sorted(found, key=repr)
+
+
+EYES = (Bone("eye", Side.LEFT), Bone("eye", Side.RIGHT))

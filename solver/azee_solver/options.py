@@ -1,0 +1,33 @@
+"""Choices of a solver, with the values that measurement settled."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from azee_solver.residuals import Tolerance
+
+
+@dataclass(frozen=True, slots=True)
+class SolveOptions:
+    """How exactly, how humanly and how long.
+
+    tolerance: what counts as met. A miss by it costs 1 in the objective, beside which stand
+    posture: per squared radian away from the reference, times the coordinate's squared stiffness;
+    comfort: per squared part of a half range beyond 80 % of it; overlap: per squared metre that
+    two capsules overlap; overlap_m: what is tolerated of that. max_evaluations and
+    descent_tolerance end one descent. further_starts: of the Halton sequence. agreeing_starts:
+    as many descents in a row that end alike end the search. fixed: coordinates that must not
+    move from the start.
+    """
+
+    tolerance: Tolerance = field(default_factory=lambda: Tolerance(1e-3, math.radians(0.5)))
+    posture: float = 1.0
+    comfort: float = 3.0
+    overlap: float = 0.25e6
+    overlap_m: float = 3e-3
+    max_evaluations: int = 600
+    descent_tolerance: float = 1e-6
+    further_starts: int = 6
+    agreeing_starts: int = 2
+    fixed: frozenset[int] = frozenset()

@@ -1,0 +1,217 @@
+"""Why a constraint is not met, found by asking smaller questions of the same solver.
+
+Alone, without the body in its way, with everything free that can help: if it misses even so, it is
+out of reach, or a coordinate's limit stops it. If only the body stops it, that is the reason. Else
+other constraints do: the first that excludes it as a pair, or, if none does, those whose removal
+lets it be met.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver import describe
+from azee_solver.attempt import Body, Result, solve_group
+from azee_solver.constraint import Morph, Place
+from azee_solver.demand import Demand
+from azee_solver.footprint import Footprint
+
+Array = NDArray[np.float64]
+
+AT_LIMIT_RAD = 1e-6
+"""A coordinate nearer to its limit than this has run into it."""
+
+
+class Diagnosis:
+    """Reasons for the constraints of one moment, given the posture that was found."""
+
+    def __init__(
+        self,
+        body: Body,
+        demands: Sequence[Demand],
+        footprints: Mapping[int, Footprint],
+        q: Array,
+    ) -> None:
+        self.demands, self.footprints, self.q = demands, footprints, q
+        options = replace(body.options, posture=1e-3, comfort=0.0, overlap=0.0, further_starts=2)
+        self.firm = Body(body.rig, body.evaluator, q, body.presets, body.options, body.constraints)
+        self.ghost = Body(body.rig, body.evaluator, q, {}, options, body.constraints)
+        self.dominant = body.evaluator.binding.dominant
+
+    def reason(self, i: int, undefined: bool) -> str:
+        """Return why demand i is not met, in one phrase."""
+        constraint = self.demands[i].constraint
+        if undefined:
+            return "its direction is undefined: a vector in it has no length"
+        if isinstance(constraint, Morph):
+            return self._morph(i, constraint)
+        alone = self._alone(self.ghost, [i])
+        if not alone.missed():
+            return self._others(i)
+        left = alone.ratios[i] * self.firm.options.tolerance.of(constraint)
+        if self._beyond_reach(i) > self.firm.options.tolerance.of(constraint):
+            return f"out of reach by {_size(constraint, left)}"
+        stopped = self._limits(i, alone)
+        if stopped:
+            return f"limit of {describe.sentence(stopped)}"
+        fixed = self._free([i], everything=True) & self.firm.options.fixed
+        if fixed:
+            return "the coordinates that could meet it are held fixed"
+        return f"out of reach by {_size(constraint, left)}"
+
+    # One constraint alone ---------------------------------------------------------------------
+
+    def _alone(self, body: Body, indices: Iterable[int]) -> Result:
+        chosen = {k: self.demands[k] for k in indices}
+        free = self._free(chosen)
+        if not free:
+            free = self._free(chosen, everything=True)
+        return solve_group(body, chosen, self.q, free, first=[self.q])
+
+    def _free(self, indices: Iterable[int], *, everything: bool = False) -> frozenset[int]:
+        affected = frozenset().union(
+            *(self.footprints[k].affected(self.firm.anatomy) for k in indices)
+        )
+        return affected if everything else affected - self.firm.options.fixed
+
+    def _beyond_reach(self, i: int) -> float:
+        """By how much a place is farther than the straightened body from its root can get."""
+        constraint = self.demands[i].constraint
+        found = self.footprints[i]
+        if not isinstance(constraint, Place) or not found.world or found.target:
+            return 0.0
+        chain = self.firm.rig.chain
+        site = self.firm.evaluator.binding.site(constraint.site)
+        frames = self.firm.frames(self.q)
+        aim = self.firm.evaluator.target(constraint, frames, self.demands[i].phase)
+        free = self._free([i])
+        length = float(np.linalg.norm(site.position))
+        node = site.node
+        while True:
+            parent = int(chain.parents[node])
+            if parent < 0 or not self.firm.anatomy.above(parent) & free:
+                break
+            length += float(np.linalg.norm(chain.offsets[node]))
+            node = parent
+        away = float(np.linalg.norm(aim - frames.positions[node]))
+        return away - length - self.firm.evaluator.scale * constraint.distance_m
+
+    def _limits(self, i: int, alone: Result) -> list[str]:
+        """Coordinates at their limits that would let the constraint be met if they went further."""
+        limits = self.firm.rig.coordinates
+        stopped = [
+            v
+            for v in sorted(self._free([i]))
+            if min(alone.q[v] - limits.lower[v], limits.upper[v] - alone.q[v]) < AT_LIMIT_RAD
+        ]
+        found = []
+        for v in stopped:
+            past = self._past_limit(i, v, alone)
+            if past is not None:
+                found.append((abs(past), limits.names[v]))
+        return [f"{name} by {math.degrees(past):.1f}°" for past, name in sorted(found)[:1]]
+
+    def _past_limit(self, i: int, v: int, alone: Result) -> float | None:
+        """How far beyond its limit one coordinate would have to go, if that is all it takes."""
+        limits = self.firm.rig.coordinates
+        lower, upper = np.array(limits.lower), np.array(limits.upper)
+        lower[v], upper[v] = lower[v] - math.pi, upper[v] + math.pi
+        wide = replace(self.ghost.rig, coordinates=replace(limits, lower=lower, upper=upper))
+        body = Body(
+            wide, self.ghost.evaluator, self.q, {}, self.ghost.options, self.ghost.constraints
+        )
+        chosen = {i: self.demands[i]}
+        result = solve_group(
+            body, chosen, alone.q, self._free([i]), first=[alone.q], only_first=True
+        )
+        if result.missed():
+            return None
+        angle = float(result.q[v])
+        return max(limits.lower[v] - angle, angle - limits.upper[v], 0.0) or None
+
+    def _morph(self, i: int, morph: Morph) -> str:
+        limits, binding = self.firm.rig.coordinates, self.firm.evaluator.binding
+        asked = binding.presets(demand.constraint for demand in self.demands)
+        for v in binding.preset(morph):
+            if v in self.firm.options.fixed:
+                return f"{limits.names[v]} is held fixed"
+            past = max(limits.lower[v] - asked[v], asked[v] - limits.upper[v])
+            if past > self.firm.options.tolerance.angle_rad:
+                return f"limit of {limits.names[v]} by {math.degrees(past):.1f}°"
+        moved = frozenset(binding.preset(morph))
+        others = [
+            k for k, found in self.footprints.items() if found.affected(self.firm.anatomy) & moved
+        ]
+        return f"conflicts with {self._names(others)}" if others else "held back by its neighbours"
+
+    # Others -----------------------------------------------------------------------------------
+
+    def _others(self, i: int) -> str:
+        alone = self._alone(self.firm, [i])
+        if alone.missed():
+            return f"the body is in the way: {self._touching(alone)}"
+        rivals = self._rivals(i)
+        for k in rivals:
+            if self._alone(self.ghost, [i, k]).missed():
+                return f"conflicts with {self._names([k])}"
+        everything = [i, *rivals]
+        if self._alone(self.ghost, everything).missed():
+            guilty = [
+                k
+                for k in rivals
+                if not self._alone(self.ghost, [j for j in everything if j != k]).missed()
+            ]
+            return f"conflicts with {self._names(guilty or rivals)} together"
+        held = self._fixed_by(i)
+        if held:
+            return f"needs {describe.sentence(held)}"
+        return "the body is in the way of meeting all at once"
+
+    def _rivals(self, i: int) -> list[int]:
+        """Other constraints that share coordinates with this one, directly or through others."""
+        linked, reach = {i}, self._free([i], everything=True)
+        grown = True
+        while grown:
+            grown = False
+            for k in self.footprints:
+                if k not in linked and self._free([k], everything=True) & reach:
+                    linked.add(k)
+                    reach |= self._free([k], everything=True)
+                    grown = True
+        return sorted(linked - {i}, key=lambda k: self.demands[k].order)
+
+    def _fixed_by(self, i: int) -> list[str]:
+        moved = self._free([i], everything=True)
+        out = []
+        for demand in self.demands:
+            constraint = demand.constraint
+            if isinstance(constraint, Morph) and self.firm.evaluator.binding.is_skeletal(
+                constraint
+            ):
+                held = moved & frozenset(self.firm.evaluator.binding.preset(constraint))
+                if held:
+                    name = describe.subject(constraint, self.dominant)
+                    out.append(f"coordinates that {name} fixes")
+        return out
+
+    def _touching(self, result: Result) -> str:
+        overlaps = self.firm.obstacles.overlaps(self.firm.frames(result.q))
+        if not overlaps:
+            return "touching"
+        return f"{overlaps[0].first} against {overlaps[0].second}"
+
+    def _names(self, indices: Iterable[int]) -> str:
+        return describe.sentence(
+            [f"`{describe.whole(self.demands[k].constraint, self.dominant)}`" for k in indices]
+        )
+
+
+def _size(constraint: object, amount: float) -> str:
+    if isinstance(constraint, Place):
+        return f"{1000 * amount:.1f} mm"
+    return f"{math.degrees(amount):.1f}°"

@@ -1,0 +1,70 @@
+"""What came of solving a moment: the posture, each constraint measured again, and why some miss."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver.collisions import Overlap
+from azee_solver.demand import Demand
+from azee_solver.evaluate import LengthOrAngle
+
+
+@dataclass(frozen=True, slots=True)
+class ProblemReport:
+    """One of the ordered problems.
+
+    constraints: indices of its demands, as given. chain: AZee bones from the root to its end.
+    merged_into: name of the problem that it was solved together with, the first of its group;
+    none for that one and for a problem solved alone. moved: parts of the body that were free.
+    """
+
+    name: str
+    constraints: tuple[int, ...]
+    chain: tuple[str, ...]
+    merged_into: str | None
+    moved: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ConstraintReport:
+    """A constraint, measured on the final posture by forward kinematics outside the kernels.
+
+    kind: what it speaks of, such as `place EL_R`. target: what it wants. residual and tolerance
+    in `unit`; NaN where the target has no direction. reason: why it is not met, else none.
+    """
+
+    demand: Demand
+    kind: str
+    target: str
+    residual: float
+    unit: LengthOrAngle
+    tolerance: float
+    met: bool
+    reason: str | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SolveReport:
+    """A solved moment.
+
+    coordinates: (V,) radians, inside the limits. problems: in the order of their dependencies.
+    constraints: those that joints can meet, in the order of the demands. penetration: capsules
+    that overlap beyond meant contacts, deepest first. reached: coordinates that the constraints
+    may move. solve_s: wall-clock time, the only part that differs from run to run.
+    """
+
+    coordinates: NDArray[np.float64]
+    problems: tuple[ProblemReport, ...]
+    constraints: tuple[ConstraintReport, ...]
+    penetration: tuple[Overlap, ...]
+    evaluations: int
+    solve_s: float
+    reached: frozenset[int]
+
+    @property
+    def met(self) -> bool:
+        """Whether every constraint is met."""
+        return all(constraint.met for constraint in self.constraints)

@@ -1,0 +1,121 @@
+"""Constraints lowered to the kernels' residuals, and read back in metres and radians."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver import kernels
+from azee_solver.binding import EYES
+from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Relation, Rotate
+from azee_solver.demand import Demand
+from azee_solver.geometry import SitePoint
+from azee_solver.program import Row
+from azee_solver.tape import DegenerateError, Tape
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerance:
+    """What counts as met: metres for places, radians for directions."""
+
+    length_m: float
+    angle_rad: float
+
+    def of(self, constraint: Constraint) -> float:
+        """Return the tolerance of a constraint, in the unit of its residual."""
+        return self.length_m if isinstance(constraint, Place) else self.angle_rad
+
+
+@dataclass(frozen=True, slots=True)
+class Residuals:
+    """Rows of some demands on a tape.
+
+    runs: for each demand, by index, its first row and one past its last. undefined: demands whose
+    target has no direction; they have no rows.
+    """
+
+    rows: tuple[Row, ...]
+    runs: Mapping[int, tuple[int, int]]
+    undefined: frozenset[int]
+
+    def ratios(self, gaps: Array, demands: Mapping[int, Demand], tolerance: Tolerance) -> Ratios:
+        """How far each demand is from being met, in tolerances, from the gaps of its rows."""
+        out = {}
+        for i, (start, stop) in self.runs.items():
+            constraint = demands[i].constraint
+            out[i] = _size(constraint, gaps[start:stop]) / tolerance.of(constraint)
+        return out
+
+
+Ratios = dict[int, float]
+
+
+def lower(
+    tape: Tape, demands: Mapping[int, Demand], tolerance: Tolerance, ease: Mapping[int, float]
+) -> Residuals:
+    """Return the rows of demands, weighted so that a miss by the tolerance costs 1.
+
+    Args: ease: factor of a demand's weight, where it is not 1.
+    """
+    rows: list[Row] = []
+    runs: dict[int, tuple[int, int]] = {}
+    undefined = set()
+    for i, demand in demands.items():
+        start = len(rows)
+        weight = ease.get(i, 1.0) / tolerance.of(demand.constraint) ** 2
+        try:
+            rows += _rows(tape, demand, weight)
+        except DegenerateError:
+            undefined.add(i)
+            continue
+        runs[i] = (start, len(rows))
+    return Residuals(tuple(rows), runs, frozenset(undefined))
+
+
+def _rows(tape: Tape, demand: Demand, weight: float) -> list[Row]:
+    constraint = demand.constraint
+    match constraint:
+        case Place(site, point, distance):
+            reach = tape.evaluator.scale * distance
+            if isinstance(point, SitePoint):
+                aim = tape.site(point.site, reach)
+                return [Row(kernels.MEET, tape.site(site), aim, weight)]
+            aim = tape.point(point, demand.phase)
+            kind = kernels.AT_DISTANCE if reach else kernels.MEET
+            return [Row(kind, tape.site(site), aim, weight, reach)]
+        case Orient(axis, bone, relation, vector):
+            along = relation is Relation.ALONG
+            kind = kernels.MEET if along else kernels.PERPENDICULAR
+            return [Row(kind, tape.axis(bone, axis), tape.unit(tape.vector(vector)), weight)]
+        case Look(vector):
+            aim = tape.unit(tape.vector(vector))
+            return [Row(kernels.MEET, tape.gaze(eye)[1], aim, weight) for eye in EYES]
+        case LookAt(point):
+            aim = tape.point(point, demand.phase)
+            rays = [tape.gaze(eye) for eye in EYES]
+            return [Row(kernels.MEET, ray, tape.towards(eye, aim), weight) for eye, ray in rays]
+        case Rotate():
+            # The three columns' chords are 2 sin(φ / 2) √2 together.
+            return [Row(kernels.MEET, a, b, 0.5 * weight) for a, b in tape.turned_frame(constraint)]
+        case _:
+            raise ValueError(f"no posture meets a {type(constraint).__name__}")
+
+
+def _size(constraint: Constraint, gaps: Array) -> float:
+    """Metres or radians of a constraint's rows."""
+    lengths = np.linalg.norm(gaps, axis=1)
+    if isinstance(constraint, Place):
+        return float(lengths[0])
+    if isinstance(constraint, Orient) and constraint.relation is Relation.ACROSS:
+        return math.asin(min(float(lengths[0]), 1.0))
+    if isinstance(constraint, Rotate):
+        chord = math.sqrt(float(lengths @ lengths) / 2)
+    else:
+        chord = float(lengths.max())
+    return 2 * math.asin(min(chord / 2, 1.0))

@@ -1,0 +1,313 @@
+"""From the constraints of one moment to a posture.
+
+The paper's ordered problems are built, those that share coordinates are grouped, and the groups
+are solved in the order of their dependencies, each with what the earlier ones reached. Where one
+misses, its problems may move more of the body, up to the trunk, together with those they depend
+on; where no posture meets all, what starts earlier or goes before by its kind wins.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver import describe
+from azee_solver.anatomy import Part
+from azee_solver.attempt import Body, Result, solve_group
+from azee_solver.constraint import Morph, Place, Transpath, Trill
+from azee_solver.demand import Demand
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import Side
+from azee_solver.groups import Group, grouped
+from azee_solver.options import SolveOptions
+from azee_solver.problems import Problem, ProblemBuilder, Reach
+from azee_solver.reasons import Diagnosis
+from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
+
+if TYPE_CHECKING:
+    from azee_rig.rig import Rig
+
+Array = NDArray[np.float64]
+
+PULL = 0.1
+"""With how much of a tolerance's force a constraint that has lost still pulls."""
+
+
+def solve(
+    rig: Rig,
+    demands: Sequence[Demand],
+    *,
+    dominant: Side,
+    start: Array,
+    reference: Array,
+    options: SolveOptions | None = None,
+) -> SolveReport:
+    """Return the posture that meets the constraints, or the nearest one and why.
+
+    Facial morphs, trills and transpaths are not the joints' to meet and are passed over.
+
+    Args: start: (V,) where to start looking. reference: (V,) the posture to stay near; what no
+        constraint moves has its value.
+    Raises: BindingError: the rig lacks a bone, site or morph.
+    """
+    began = time.perf_counter()
+    moment = _Moment(rig, demands, dominant, start, reference, options or SolveOptions())
+    state = moment.solve()
+    return moment.report(state, began)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _State:
+    """A posture for the whole moment, and how it came about."""
+
+    q: Array
+    groups: tuple[Group, ...]
+    results: tuple[Result, ...]
+
+    def missed(self) -> frozenset[int]:
+        return frozenset().union(*(r.missed() for r in self.results))
+
+
+class _Moment:
+    def __init__(
+        self,
+        rig: Rig,
+        demands: Sequence[Demand],
+        dominant: Side,
+        start: Array,
+        reference: Array,
+        options: SolveOptions,
+    ) -> None:
+        self.rig, self.demands, self.options = rig, demands, options
+        limits = rig.coordinates
+        evaluator = Evaluator(rig, dominant)
+        for demand in demands:
+            evaluator.binding.check(demand.constraint)
+        self.constraints = [demand.constraint for demand in demands]
+        presets = evaluator.binding.presets(self.constraints)
+        self.start = np.clip(start, limits.lower, limits.upper)
+        self.rest = np.clip(reference, limits.lower, limits.upper)
+        for v in options.fixed:
+            self.rest[v] = self.start[v]
+        self.body = Body(rig, evaluator, self.rest.copy(), presets, options, self.constraints)
+        for v, angle in presets.items():
+            if v not in options.fixed:
+                self.rest[v] = np.clip(angle, limits.lower[v], limits.upper[v])
+        builder = ProblemBuilder(demands, evaluator.binding, self.body.anatomy)
+        self.problems: tuple[Problem, ...] = builder.build()
+        self.footprints = builder.footprints
+
+    # Solving ----------------------------------------------------------------------------------
+
+    def solve(self) -> _State:
+        """Solve with as little of the body as will do."""
+        reach = [Reach.OWN] * len(self.problems)
+        tried = [(reach, self._in_order(reach, None))]
+        while wider := self._widened(*tried[-1]):
+            tried.append((wider, self._in_order(wider, tried[-1][1])))
+        if not tried[-1][1].missed():
+            return tried[-1][1]
+        settled = [self._in_order(reach, state, settle=True) for reach, state in tried]
+        best = settled[0]
+        for state in settled[1:]:
+            if self._prefers(state, best):
+                best = state
+        return best
+
+    def _in_order(
+        self, reach: Sequence[Reach], before: _State | None, *, settle: bool = False
+    ) -> _State:
+        """Solve all groups, each with what the earlier ones reached.
+
+        Args: before: a state whose results stand where nothing they depend on has changed.
+            settle: where constraints exclude each other, the later ones give way.
+        """
+        groups = grouped(self.problems, reach, self.body.anatomy, self.options.fixed)
+        q = self.rest.copy()
+        results = []
+        for n, group in enumerate(groups):
+            unsettled = frozenset().union(*(g.free for g in groups[n + 1 :]))
+            result = self._standing(group, q, before)
+            if result is None:
+                first = [self.start] if before is None else [before.q, self.start]
+                result = self._together(group, q, unsettled, first)
+            if settle:
+                result = self._settled(group, q, unsettled, result)
+            q = q.copy()
+            q[sorted(group.free)] = result.q[sorted(group.free)]
+            results.append(result)
+        return _State(q, tuple(groups), tuple(results))
+
+    def _standing(self, group: Group, q: Array, before: _State | None) -> Result | None:
+        """Return an earlier result for the same group with the same surroundings."""
+        around = sorted(group.reads - group.free)
+        if before is None or not np.array_equal(q[around], before.q[around]):
+            return None
+        for other, result in zip(before.groups, before.results, strict=True):
+            if (other.problems, other.free) == (group.problems, group.free):
+                return result
+        return None
+
+    def _together(
+        self, group: Group, q: Array, unsettled: frozenset[int], first: Sequence[Array]
+    ) -> Result:
+        """Solve one group, all its constraints with equal right."""
+        last = all(
+            self.problems[p].steps[Reach.ALL] <= group.free | self.options.fixed
+            for p in group.problems
+        )
+        return solve_group(
+            self.body,
+            self._demands_of(group),
+            q,
+            group.free,
+            unsettled=unsettled,
+            first=first,
+            thorough=last,
+        )
+
+    def _settled(self, group: Group, q: Array, unsettled: frozenset[int], result: Result) -> Result:
+        """Where constraints exclude each other, let the later ones give way to the earlier."""
+        demands = self._demands_of(group)
+
+        def again(ease: Mapping[int, float], begin: Array) -> Result:
+            return solve_group(
+                self.body,
+                demands,
+                q,
+                group.free,
+                unsettled=unsettled,
+                ease=ease,
+                first=[begin],
+                only_first=True,
+            )
+
+        ease: dict[int, float] = {}
+        while len(missed := result.missed() - result.undefined - ease.keys()) > (not ease):
+            loser = max(missed, key=lambda i: self.demands[i].order)
+            ease[loser] = PULL / result.ratios[loser]
+            result = again(ease, result.q)
+        for i in sorted(ease, key=lambda i: self.demands[i].order)[: len(ease) - 1]:
+            fewer = {k: v for k, v in ease.items() if k != i}
+            other = again(fewer, result.q)
+            if other.missed() - other.undefined <= fewer.keys():
+                ease, result = fewer, other
+        return result
+
+    def _demands_of(self, group: Group) -> dict[int, Demand]:
+        indices = sorted(i for p in group.problems for i in self.problems[p].demands)
+        return {i: self.demands[i] for i in indices}
+
+    def _widened(self, reach: Sequence[Reach], state: _State) -> list[Reach] | None:
+        """Let problems of groups that miss move more, where that can help; none if nothing can."""
+        wider = list(reach)
+        for group, result in zip(state.groups, state.results, strict=True):
+            in_the_way = result.overlap_m > self.options.overlap_m
+            missed = result.missed() - result.undefined
+            if not missed and not in_the_way:
+                continue
+            touched = frozenset().union(
+                *(self.footprints[i].affected(self.body.anatomy) for i in missed)
+            )
+            for p in group.problems:
+                steps = self.problems[p].steps
+                for r in Reach:
+                    gain = steps[r] - group.free - self.options.fixed
+                    linked = r is Reach.TRUNK > reach[p] and self._is_linked(p, group)
+                    if r > reach[p] and (gain & touched or linked or (gain and in_the_way)):
+                        wider[p] = r
+                        break
+        return None if wider == list(reach) else wider
+
+    def _is_linked(self, p: int, group: Group) -> bool:
+        """Whether a problem depends on one that is not in its group."""
+        return any(
+            self.problems[p].needs(other)
+            for j, other in enumerate(self.problems)
+            if j not in group.problems
+        )
+
+    def _prefers(self, one: _State, other: _State) -> bool:
+        """Whether to take a posture that moves more of the body."""
+        a, b = self._misses(one), self._misses(other)
+        if len(a) != len(b):
+            return len(a) < len(b)
+        unit = self.options.tolerance.length_m
+        places = [
+            sum(r for i, r in m.items() if isinstance(self.constraints[i], Place)) for m in (a, b)
+        ]
+        if abs(places[0] - places[1]) > 1.0:
+            return places[0] < places[1]
+        if sum(a.values()) != sum(b.values()):
+            return sum(a.values()) < 0.7 * sum(b.values())
+        depth = [sum(r.overlap_m for r in s.results) / unit for s in (one, other)]
+        return depth[0] < depth[1]
+
+    def _misses(self, state: _State) -> dict[int, float]:
+        return {i: r.ratios[i] for r in state.results for i in r.missed() - r.undefined}
+
+    # Report -----------------------------------------------------------------------------------
+
+    def report(self, state: _State, began: float) -> SolveReport:
+        """Measure everything again, outside the kernels, and say why what misses misses."""
+        limits = self.rig.coordinates
+        q = np.clip(state.q, limits.lower, limits.upper)
+        frames = self.rig.chain.frames(q)
+        dominant = self.body.evaluator.binding.dominant
+        undefined = frozenset().union(*(r.undefined for r in state.results))
+        diagnosis = Diagnosis(self.body, self.demands, self.footprints, q)
+        constraints = []
+        for i, demand in enumerate(self.demands):
+            constraint = demand.constraint
+            if isinstance(constraint, Transpath | Trill) or (
+                isinstance(constraint, Morph)
+                and not self.body.evaluator.binding.is_skeletal(constraint)
+            ):
+                continue
+            residual, unit = self.body.evaluator.residual(
+                constraint, frames, q, demand.phase, self.constraints
+            )
+            tolerance = self.options.tolerance.of(constraint)
+            met = bool(residual <= tolerance)
+            constraints.append(
+                ConstraintReport(
+                    demand,
+                    describe.subject(constraint, dominant),
+                    describe.target(constraint, dominant),
+                    float(residual),
+                    unit,
+                    tolerance,
+                    met,
+                    None if met else diagnosis.reason(i, i in undefined),
+                )
+            )
+        q.setflags(write=False)
+        free = frozenset().union(*(group.free for group in state.groups))
+        return SolveReport(
+            q,
+            tuple(self._problem_report(p, state.groups) for p in range(len(self.problems))),
+            tuple(constraints),
+            self.body.obstacles.overlaps(frames),
+            self.body.evaluations,
+            time.perf_counter() - began,
+            free | frozenset(self.body.presets) - self.options.fixed,
+        )
+
+    def _problem_report(self, p: int, groups: Sequence[Group]) -> ProblemReport:
+        problem = self.problems[p]
+        group = next(g for g in groups if p in g.problems)
+        first = group.problems[0]
+        parts = self.body.anatomy.parts
+        moved = {parts[v] for v in group.free}
+        return ProblemReport(
+            problem.name,
+            problem.demands,
+            problem.chain,
+            self.problems[first].name if first != p else None,
+            tuple(part.value for part in Part if part in moved),
+        )

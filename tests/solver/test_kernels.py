@@ -1,0 +1,232 @@
+"""The compiled objective against finite differences, and its frames against the chain's own."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from stick_body import stick_body
+
+from azee_rig.rig import Rig
+from azee_solver import kernels
+from azee_solver.constraint import BoneAxis, Rotate
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import (
+    Between,
+    Bone,
+    Cross,
+    Dir,
+    FreePoint,
+    JointPoint,
+    Moving,
+    NamedPoint,
+    Nrm,
+    Opp,
+    Out,
+    Point,
+    Rotated,
+    Scale,
+    Side,
+    SigningSpace,
+    Site,
+    SitePoint,
+    Straight,
+    Towards,
+    Unit,
+    VDiff,
+    Vec,
+    Vector,
+    VSum,
+    VTranslate,
+)
+from azee_solver.program import Collisions, Cost, Program, Row
+from azee_solver.tape import Tape
+
+S, W = Side.STRONG, Side.WEAK
+UP = Vec(0.0, 1.0, 0.0)
+PALM_S, PALM_W, HEAD = Bone("palm", S), Bone("palm", W), Bone("head")
+TIP_S, TIP_W = SitePoint(Site("I_TIP", S)), SitePoint(Site("I_TIP", W))
+
+VECTORS: list[Vector] = [
+    UP,
+    Out(S),
+    Dir(PALM_S),
+    Nrm(HEAD),
+    Opp(Dir(PALM_W)),
+    Unit(VSum((Dir(PALM_S), Scale(Nrm(PALM_W), 0.7), UP))),
+    VDiff(Dir(PALM_S), Nrm(HEAD)),
+    Cross(Dir(PALM_S), Dir(PALM_W)),
+    Towards(JointPoint(PALM_S), SitePoint(Site("CH"))),
+    Towards(TIP_S, TIP_W),
+    Rotated(Dir(PALM_S), VSum((Nrm(PALM_W), UP)), 0.7),
+    Rotated(Rotated(UP, Nrm(PALM_S), 0.4), Cross(Nrm(HEAD), Dir(PALM_W)), -1.9),
+]
+
+POINTS: list[Point] = [
+    FreePoint(0.1, -0.2, 0.3),
+    NamedPoint(SigningSpace.SSSP),
+    TIP_W,
+    JointPoint(HEAD),
+    JointPoint(Bone("back_1")),
+    VTranslate(TIP_W, Scale(Dir(PALM_W), 0.05)),
+    VTranslate(SitePoint(Site("FH")), Rotated(UP, Dir(PALM_S), 1.0)),
+    Between(TIP_S, SitePoint(Site("CH")), 0.3),
+    Moving(Straight(), TIP_W, SitePoint(Site("ST"))),
+]
+
+
+class Case:
+    """A problem on the stick body with all coordinates free, about a random posture."""
+
+    def __init__(self, seed: int, free: list[int] | None = None) -> None:
+        self.rig: Rig = stick_body()
+        limits = self.rig.coordinates
+        random = np.random.default_rng(seed)
+        self.q = limits.lower + random.uniform(0.05, 0.95, len(limits)) * (
+            limits.upper - limits.lower
+        )
+        self.free = list(range(len(limits))) if free is None else free
+        moving = np.zeros(len(self.rig.chain.names), dtype=np.bool_)
+        for node in range(len(moving)):
+            parent = self.rig.chain.parents[node]
+            run = slice(self.rig.chain.dof_start[node], self.rig.chain.dof_start[node + 1])
+            own = np.isin(self.rig.chain.dof_coordinate[run], self.free).any()
+            moving[node] = own or (parent >= 0 and moving[parent])
+        self.evaluator = Evaluator(self.rig, Side.RIGHT)
+        self.tape = Tape(self.evaluator, self.rig.chain.frames(self.q), moving)
+
+    def program(
+        self, rows: list[Row], collisions: Collisions | None = None, **cost: float
+    ) -> Program:
+        every = np.ones(len(self.q))
+        return Program(
+            self.rig,
+            self.q,
+            self.free,
+            self.tape,
+            rows,
+            collisions or Collisions.none(),
+            Cost(
+                self.rig.coordinates.idle,
+                cost.get("keep", 0.0) * every,
+                cost.get("comfort", 0.0) * every,
+                cost.get("overlap", 0.0),
+            ),
+        )
+
+
+def slope(program: Program, x: NDArray[np.float64], v: int) -> float:
+    """Central difference with one step of Richardson's extrapolation."""
+    none = np.empty(0)
+
+    def step(h: float) -> float:
+        up, down = x.copy(), x.copy()
+        up[v] += h
+        down[v] -= h
+        return (program(up, none) - program(down, none)) / (2 * h)
+
+    return (4 * step(5e-5) - step(1e-4)) / 3
+
+
+def check_gradient(program: Program, q: NDArray[np.float64]) -> None:
+    x = q[program.free]
+    gradient = np.empty(len(x))
+    value = program(x, gradient)
+    assert value > 0
+    estimate = np.array([slope(program, x, v) for v in range(len(x))])
+    scale = np.abs(estimate).max()
+    assert scale > 0
+    np.testing.assert_allclose(gradient, estimate, atol=1e-7 * scale, rtol=1e-6)
+
+
+@pytest.mark.parametrize("expr", VECTORS, ids=lambda e: type(e).__name__)
+@pytest.mark.parametrize("kind", [kernels.MEET, kernels.PERPENDICULAR])
+def test_gradient_of_orientations(expr: Vector, kind: int) -> None:
+    case = Case(1)
+    rows = [
+        Row(kind, case.tape.axis(Bone("f_arm", S), axis), case.tape.unit(case.tape.vector(expr)), w)
+        for axis, w in ((BoneAxis.DIR, 2.0), (BoneAxis.NRM, 3.0))
+    ]
+    check_gradient(case.program(rows), case.q)
+
+
+@pytest.mark.parametrize("expr", POINTS, ids=lambda e: type(e).__name__)
+@pytest.mark.parametrize("kind", [kernels.MEET, kernels.AT_DISTANCE])
+def test_gradient_of_places(expr: Point, kind: int) -> None:
+    case = Case(2)
+    site = case.tape.site(Site("M_TIP", S), 0.01)
+    row = Row(kind, site, case.tape.point(expr, 0.4), 2.0, 0.1)
+    check_gradient(case.program([row]), case.q)
+
+
+def test_gradient_of_rotations_and_gaze() -> None:
+    case = Case(3)
+    rows = []
+    for rotate in (
+        Rotate(Bone("back_2"), Vec(1.0, 0.5, 0.0), 0.3),
+        Rotate(HEAD, Dir(PALM_S), -0.6),
+        Rotate(Bone("back_1"), UP, 0.2),
+    ):
+        rows += [Row(kernels.MEET, a, b, 0.5) for a, b in case.tape.turned_frame(rotate)]
+    centre, gaze = case.tape.gaze(Bone("eye", Side.LEFT))
+    rows.append(Row(kernels.MEET, gaze, case.tape.towards(centre, case.tape.point(TIP_S)), 1.0))
+    check_gradient(case.program(rows), case.q)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_gradient_of_collisions_posture_and_comfort(seed: int) -> None:
+    case = Case(seed)
+    pairs = case.rig.capsules.pairs
+    reach = case.rig.capsules.radius[pairs].sum(axis=1) + 0.12
+    program = case.program([], Collisions(pairs, reach), keep=0.3, comfort=5.0, overlap=40.0)
+    check_gradient(program, case.q)
+
+
+def test_gradient_with_few_coordinates_free() -> None:
+    rig = stick_body()
+    free = [v for v, name in enumerate(rig.coordinates.names) if name.startswith(("arm_R", "back"))]
+    case = Case(4, free)
+    row = Row(kernels.MEET, case.tape.site(Site("I_TIP", S)), case.tape.point(POINTS[0]), 1.0)
+    turn = Row(
+        kernels.MEET, case.tape.unit(case.tape.vector(VECTORS[5])), case.tape.vector(UP), 2.0
+    )
+    pairs = rig.capsules.pairs
+    reach = rig.capsules.radius[pairs].sum(axis=1) + 0.1
+    check_gradient(case.program([row, turn], Collisions(pairs, reach), overlap=30.0), case.q)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_frames_equal_those_of_the_chain(seed: int) -> None:
+    case = Case(seed)
+    rig = case.rig
+    rows = [
+        Row(kernels.MEET, case.tape.node_point(b, np.zeros(3)), case.tape.constant(np.ones(3)), 1.0)
+        for b in range(len(rig.chain.names))
+    ]
+    program = case.program(rows)
+    other = np.random.default_rng(99).uniform(rig.coordinates.lower, rig.coordinates.upper)
+    program(other, np.empty(0))
+    wanted = rig.chain.frames(other)
+    run = slice(program.ints[kernels.POSITIONS], program.ints[kernels.POSITIONS + 1])
+    np.testing.assert_allclose(program.reals[run].reshape(-1, 3), wanted.positions, atol=1e-13)
+    run = slice(program.ints[kernels.ROTATIONS], program.ints[kernels.ROTATIONS + 1])
+    np.testing.assert_allclose(program.reals[run].reshape(-1, 3, 3), wanted.rotations, atol=1e-13)
+
+
+@pytest.mark.parametrize("expr", VECTORS, ids=lambda e: type(e).__name__)
+def test_a_tape_gives_the_evaluator_s_vectors(expr: Vector) -> None:
+    case = Case(5)
+    row = Row(kernels.MEET, case.tape.vector(expr), case.tape.constant(np.zeros(3)), 1.0)
+    value = case.program([row])(case.q, np.empty(0))
+    wanted = case.evaluator.vector(expr, case.rig.chain.frames(case.q))
+    assert value == pytest.approx(float(wanted @ wanted), rel=1e-12)
+
+
+@pytest.mark.parametrize("expr", POINTS, ids=lambda e: type(e).__name__)
+def test_a_tape_gives_the_evaluator_s_points(expr: Point) -> None:
+    case = Case(6)
+    place = np.array([0.3, 0.2, 0.1])
+    row = Row(kernels.MEET, case.tape.point(expr, 0.25), case.tape.constant(place), 1.0)
+    value = case.program([row])(case.q, np.empty(0))
+    wanted = case.evaluator.point(expr, case.rig.chain.frames(case.q), 0.25) - place
+    assert value == pytest.approx(float(wanted @ wanted), rel=1e-12)

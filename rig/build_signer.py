@@ -22,7 +22,7 @@ from azee_rig.build.coordinates import coordinate_names, read_coordinates
 from azee_rig.build.dress import dress
 from azee_rig.build.joints import build_joints
 from azee_rig.build.makehuman import check_wheel, read_body
-from azee_rig.build.morphs import read_face_morphs, read_skeletal_morphs
+from azee_rig.build.morphs import read_face_morphs, read_lids, read_skeletal_morphs
 from azee_rig.build.pack import write_mesh, write_rig
 from azee_rig.build.piece import assemble, whole_body
 from azee_rig.build.sites import SitePlacer, read_rules
@@ -45,6 +45,15 @@ PHENOTYPE = {
 }
 """The mean of all adults that the data knows: nobody in particular."""
 
+EXPRESSION = {
+    "mh_mouth-compression": 0.22,
+    "jawOpen": -0.02,
+    "mouthSmileLeft": 0.12,
+    "mouthSmileRight": 0.12,
+    "browInnerUp": 0.12,
+}
+"""Laid into the resting face: lips that meet, and a friendly look."""
+
 SIGNING_SPACE = {
     "Mssp": (0.0, -0.95, 1.25),
     "Rssp": (-0.95, -0.95, 1.15),
@@ -57,10 +66,11 @@ SIGNING_SPACE = {
 def main(wheel: Path, folder: Path) -> None:
     """Build everything and write it."""
     check_wheel(wheel)
-    body = read_body(wheel, PHENOTYPE)
+    body = read_body(wheel, PHENOTYPE, EXPRESSION)
     mapped = json.loads((DATA / "bodies" / "makehuman.json").read_text(encoding="utf-8"))
     bones = {bone: tuple(joints) for bone, joints in mapped["bones"].items()}
-    anatomy = read_anatomy(body, bones, mapped["thumb_nail"])
+    regions = {name: np.array(rows) for name, rows in mapped["regions"].items()}
+    anatomy = read_anatomy(body, bones, {s: regions[f"thumb_nail_{s}"] for s in SIDES})
     names = coordinate_names(DATA / "coordinates.csv")
     built = build_chain(anatomy, names)
     coordinates = read_coordinates(DATA / "coordinates.csv", built.bind)
@@ -68,10 +78,14 @@ def main(wheel: Path, folder: Path) -> None:
         body, anatomy, built, bones, mapped["kept"], mapped["twist"], mapped["helpers"], names
     )
     units = tuple(body.shapes)
-    mesh = assemble(dress(body, whole_body(body, made.weights, units)), units)
+    mesh = assemble(dress(body, whole_body(body, made.weights, units), anatomy, regions), units)
     surface = Surface(mesh, made.skeleton)
     frames = built.chain.frames(coordinates.bind)
-    placer = SitePlacer(surface, anatomy, frames, built.bones, bones)
+    flesh = {"root": ("root",)} | {
+        bone: (*joints, *(h for h, (bending, *_) in mapped["helpers"].items() if bending in joints))
+        for bone, joints in bones.items()
+    }
+    placer = SitePlacer(surface, anatomy, frames, built.bones, flesh)
     sites = [placer.place(rule) for rule in read_rules(DATA / "site_rules.csv")]
     expressed, not_expressed = read_face_morphs(DATA / "face_morphs.json", units)
     landmarks = _landmarks(built.chain, built.bones, coordinates)
@@ -83,9 +97,7 @@ def main(wheel: Path, folder: Path) -> None:
         drive=made.drive,
         bones=built.bones,
         sites={site.name: site for site in sites},
-        capsules=fit_capsules(
-            surface, anatomy, frames, built.chain.names, built.bones, {**bones, "root": ("root",)}
-        ),
+        capsules=fit_capsules(surface, anatomy, frames, built.chain.names, built.bones, flesh),
         landmarks=landmarks,
         signing_space={
             name: landmarks.shoulder_middle + landmarks.upper_arm_m * np.array(place)
@@ -95,6 +107,7 @@ def main(wheel: Path, folder: Path) -> None:
         face_morphs=expressed,
         unexpressed_morphs=not_expressed,
         units=units,
+        lids=read_lids(DATA / "lids.json", units),
         folder=folder,
     )
     folder.mkdir(parents=True, exist_ok=True)

@@ -96,6 +96,7 @@ def _read(content: dict[str, Any], folder: Path) -> Rig:
         face_morphs=content["face_morphs"],
         unexpressed_morphs=content["unexpressed_morphs"],
         units=tuple(content["units"]),
+        lids={unit: (name, weight) for unit, (name, weight) in content["lids"].items()},
         folder=folder,
     )
 

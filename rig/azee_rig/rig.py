@@ -91,7 +91,8 @@ class Rig:
     Rssp, Lssp and addressee. skeletal_morphs: radians that a morph of weight 1 adds to each
     coordinate. face_morphs: weights that a morph of weight 1 adds to each face unit.
     unexpressed_morphs: AZee morphs that this face cannot show, with the reason.
-    units: names of the face units. folder: where the mesh lies; it is read when first asked for.
+    units: names of the face units. lids: per unit a coordinate of an eye and the weight per
+    radian, in effect where it is positive. folder: where the mesh lies; it is read when first asked for.
     """
 
     name: str
@@ -108,6 +109,7 @@ class Rig:
     face_morphs: Mapping[str, Mapping[str, float]]
     unexpressed_morphs: Mapping[str, str]
     units: tuple[str, ...]
+    lids: Mapping[str, tuple[str, float]]
     folder: Path
 
     @cached_property
@@ -121,6 +123,17 @@ class Rig:
         Twist is shared along upper arm and forearm; helper joints follow their neighbours.
         """
         return self.drive.pose(q, self.coordinates.bind, self.chain, self.skeleton)
+
+    def lid_weights(self, q: Floats) -> dict[str, Floats]:
+        """Weights (…) of the face units with which lids follow the eyes of q (…, V).
+
+        They are added to those of the expression; `skin` leaves that to its caller.
+        """
+        q = np.asarray(q, dtype=np.float64)
+        return {
+            unit: np.maximum(per_rad * q[..., self.coordinates.index[coordinate]], 0.0)
+            for unit, (coordinate, per_rad) in self.lids.items()
+        }
 
     def joint_positions(self, pose: Pose) -> Floats:
         """World positions (…, J, 3) of the body's joints, metres."""

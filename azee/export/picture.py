@@ -1,0 +1,265 @@
+"""Pictures of a posed body, without a display and without a graphics driver.
+
+A camera looks at the body; the light is soft and comes from the front left above, so that hands
+stand out from the trunk and fingers from each other. Colours are linear until the last step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from azee_rig.mesh import BodyMesh, vertex_normals
+from azee_rig.rig import Rig
+
+Floats = NDArray[np.float64]
+
+SUN = np.array([0.28, 0.72, 0.95]) / np.linalg.norm([0.28, 0.72, 0.95])
+LIGHTS = np.array(
+    [
+        [1.75, 1.68, 1.58],  # key
+        [0.62, 0.66, 0.74],  # sky
+        [0.30, 0.27, 0.25],  # ground
+        [0.35, 0.38, 0.42],  # rim
+    ]
+)
+BACKGROUND = (0.72, 0.76, 0.80), (0.90, 0.92, 0.94)
+"""sRGB at the top and at the bottom of a picture."""
+SHADOW_SAMPLES = 1024
+SHADOW_MARGIN_M = 0.25
+"""What may throw a shadow into the picture from outside of it."""
+SAMPLES = 2
+"""Samples per pixel, each way."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Camera:
+    """An eye in the world that looks at a target: (3,) metres each; height of view in radians."""
+
+    eye: Floats
+    target: Floats
+    height_rad: float
+
+    @property
+    def axes(self) -> Floats:
+        """Rows right, up and backward of the view, (3, 3)."""
+        back = self.eye - self.target
+        back = back / np.linalg.norm(back)
+        right = np.cross([0.0, 1.0, 0.0], back)
+        if np.linalg.norm(right) < 1e-6:
+            right = np.array([1.0, 0.0, 0.0])
+        right = right / np.linalg.norm(right)
+        return np.stack([right, np.cross(back, right), back])
+
+
+VIEWS: Mapping[str, tuple[str, tuple[float, float, float], float]] = {
+    "front": ("body", (0.0, 0.05, 1.0), 0.62),
+    "side": ("body", (-1.0, 0.05, 0.08), 0.62),
+    "three-quarter": ("body", (-0.72, 0.28, 0.8), 0.62),
+    "back": ("body", (0.0, 0.05, -1.0), 0.62),
+    "whole": ("whole", (0.0, 0.05, 1.0), 0.92),
+    "face": ("face", (0.0, 0.03, 1.0), 0.165),
+    "face three-quarter": ("face", (-0.7, 0.05, 0.8), 0.165),
+    "face side": ("face", (-1.0, 0.0, 0.0), 0.165),
+    "right hand": ("palm_R", (0.0, 0.1, 1.0), 0.14),
+    "left hand": ("palm_L", (0.0, 0.1, 1.0), 0.14),
+}
+"""What a named camera looks at, from where, and half the height of what it shows in metres."""
+
+_LENS_RAD = np.radians(20.0)
+
+
+def camera(rig: Rig, q: Floats, view: str) -> Camera:
+    """Return a named camera for a body in posture q (V,): the views stand still but the hands'.
+
+    `right hand palm` and `right hand back` look onto the palm's own faces, from wherever it is.
+    Raises: KeyError: no such view.
+    """
+    frames = rig.chain.frames(q)
+    for hand, bone in (("right hand", "palm_R"), ("left hand", "palm_L")):
+        if view.startswith(f"{hand} "):
+            node = rig.bones[bone].node
+            R = frames.rotations[node]
+            towards = {
+                "palm": R[:, 2],
+                "back": -R[:, 2],
+                "thumb": R[:, 0] * (1.0 if bone.endswith("R") else -1.0),
+                "tips": R[:, 1],
+            }[view.removeprefix(f"{hand} ")]
+            middle = frames.positions[node] + 0.075 * R[:, 1]
+            return _from(middle, towards, 0.13)
+    what, towards_eye, half_height = VIEWS[view]
+    if what == "body":
+        target = np.array(rig.landmarks.shoulder_middle) + (0.0, -0.17, 0.05)
+        half_height *= rig.landmarks.arm_m / 0.48
+    elif what == "whole":
+        target = np.array([0.0, 0.83, 0.02]) * rig.landmarks.shoulder_middle[1] / 1.31
+    elif what == "face":
+        eyes = [frames.positions[rig.bones[f"eye_{s}"].node] for s in "LR"]
+        target = (eyes[0] + eyes[1]) / 2.0 + (0.0, -0.02, -0.03)
+    else:
+        node = rig.bones[what].node
+        target = frames.positions[node] + 0.075 * frames.rotations[node][:, 1]
+    return _from(target, np.array(towards_eye), half_height)
+
+
+def _from(target: Floats, towards_eye: Floats, half_height: float) -> Camera:
+    direction = towards_eye / np.linalg.norm(towards_eye)
+    return Camera(target + direction * half_height / np.tan(_LENS_RAD / 2.0), target, _LENS_RAD)
+
+
+def render(
+    vertices: Floats,
+    mesh: BodyMesh,
+    camera: Camera,
+    size: tuple[int, int] = (480, 600),
+    *,
+    transparent: bool = False,
+    samples: int = SAMPLES,
+) -> Image.Image:
+    """Draw a posed mesh: vertices (N, 3) as `Rig.skin` gives them, size in pixels.
+
+    Returns: RGB, or RGBA with an empty background when `transparent`.
+    """
+    from azee.export.raster import fill, shade
+
+    width, height = size[0] * samples, size[1] * samples
+    vertices = np.array(vertices, dtype=np.float64)
+    triangles = np.array(mesh.triangles)
+    normals = vertex_normals(vertices, mesh.triangles)
+    screen, inverse_w = _projected(vertices, camera, width, height)
+    depth = np.full((height, width), 1e30)
+    seen = np.full((height, width), -1, dtype=np.int32)
+    fill(screen, triangles, depth, seen)
+
+    reach = np.tan(camera.height_rad / 2.0) * np.linalg.norm(camera.eye - camera.target)
+    reach_m = float(reach) + SHADOW_MARGIN_M
+    shadow_from = _shadow_map(camera.target, reach_m)
+    lit = np.ascontiguousarray(vertices @ shadow_from[:3].T + shadow_from[3])
+    shadow = np.full((SHADOW_SAMPLES, SHADOW_SAMPLES), 1e30)
+    fill(lit, triangles, shadow, np.full(shadow.shape, -1, dtype=np.int32))
+
+    colours = np.ones((len(vertices), 3))
+    roughness = np.ones(len(triangles))
+    for part in mesh.parts:
+        run = slice(part.start, part.stop)
+        roughness[run] = part.roughness
+        used = mesh.triangles[run].ravel()
+        colours[used] = mesh.colours[used] * part.colour[:3]
+    light = np.zeros((size[1], size[0], 4))
+    shade(
+        screen,
+        inverse_w,
+        triangles,
+        vertices,
+        normals,
+        colours,
+        roughness,
+        seen,
+        np.array(camera.eye, dtype=np.float64),
+        SUN,
+        LIGHTS,
+        shadow_from,
+        shadow,
+        2.0 * reach_m / SHADOW_SAMPLES,
+        samples,
+        light,
+    )
+    return _developed(light / samples**2, transparent)
+
+
+def picture(
+    rig: Rig,
+    q: Floats,
+    view: str = "front",
+    unit_weights: Mapping[str, float] | None = None,
+    size: tuple[int, int] = (480, 600),
+    *,
+    transparent: bool = False,
+    samples: int = SAMPLES,
+) -> Image.Image:
+    """Draw a rig in posture q (V,) with a face, through a named camera.
+
+    Args: unit_weights: of the expression, by face unit; the lids follow the eyes by themselves.
+    """
+    face = {unit: float(weight) for unit, weight in rig.lid_weights(q).items()}
+    for unit, weight in (unit_weights or {}).items():
+        face[unit] = face.get(unit, 0.0) + weight
+    vertices = rig.skin(rig.pose(q), face)
+    eye = camera(rig, q, view)
+    return render(vertices, rig.mesh, eye, size, transparent=transparent, samples=samples)
+
+
+def contact_sheet(
+    pictures: Sequence[tuple[str, Image.Image]], columns: int | None = None
+) -> Image.Image:
+    """Pictures of one size side by side, each with a caption under it; rows of `columns`."""
+    columns = columns or len(pictures)
+    width, height = pictures[0][1].size
+    band = 22 if any(caption for caption, _ in pictures) else 0
+    rows = -(-len(pictures) // columns)
+    sheet = Image.new("RGB", (columns * width, rows * (height + band)), "white")
+    draw = ImageDraw.Draw(sheet)
+    font = ImageFont.load_default(13)
+    for i, (caption, image) in enumerate(pictures):
+        x, y = i % columns * width, i // columns * (height + band)
+        sheet.paste(image, (x, y))
+        draw.text((x + 6, y + height + 3), caption, fill=(40, 40, 40), font=font)
+    return sheet
+
+
+def _projected(vertices: Floats, camera: Camera, width: int, height: int) -> tuple[Floats, Floats]:
+    """Screen places (N, 3), the depth affine on the screen, and reciprocal distances (N, 1)."""
+    local = (vertices - camera.eye) @ camera.axes.T
+    distance = -local[:, 2]
+    in_front = distance > 0.01
+    inverse = 1.0 / np.where(in_front, distance, 1.0)
+    scale = height / 2.0 / np.tan(camera.height_rad / 2.0)
+    screen = np.stack(
+        [
+            width / 2.0 + scale * local[:, 0] * inverse,
+            height / 2.0 - scale * local[:, 1] * inverse,
+            np.where(in_front, -inverse, 1e30),
+        ],
+        axis=1,
+    )
+    return np.ascontiguousarray(screen), np.ascontiguousarray(inverse[:, None])
+
+
+def _shadow_map(target: Floats, reach_m: float) -> Floats:
+    """Rows that map a place to samples x, y and depth in metres of the key light's view."""
+    right = np.cross([0.0, 1.0, 0.0], SUN)
+    right = right / np.linalg.norm(right)
+    up = np.cross(SUN, right)
+    per_metre = SHADOW_SAMPLES / 2.0 / reach_m
+    rows = np.stack([right * per_metre, -up * per_metre, -SUN])
+    constant = np.array([SHADOW_SAMPLES / 2.0, SHADOW_SAMPLES / 2.0, 0.0]) - rows @ target
+    return np.ascontiguousarray(np.concatenate([rows, constant[None]]))
+
+
+def _developed(mean: Floats, transparent: bool) -> Image.Image:
+    """Encode mean linear light and coverage (H, W, 4) as sRGB over the background."""
+    height = len(mean)
+    cover = mean[..., 3:]
+    if transparent:
+        rgb = _encoded(mean[..., :3] / np.where(cover > 0.0, cover, 1.0))
+        rgba = np.concatenate([rgb, cover], axis=2)
+        return Image.fromarray(np.round(rgba * 255.0).astype(np.uint8), "RGBA")
+    top, bottom = (np.array(c) ** 2.2 for c in BACKGROUND)
+    at = np.linspace(0.0, 1.0, height)[:, None, None]
+    rgb = _encoded(mean[..., :3] + (1.0 - cover) * (top + at * (bottom - top)))
+    return Image.fromarray(np.round(rgb * 255.0).astype(np.uint8), "RGB")
+
+
+def _encoded(linear: Floats) -> Floats:
+    """Encode linear light as sRGB (IEC 61966-2-1), highlights rolled off towards white."""
+    knee = 0.8
+    over = np.maximum(linear - knee, 0.0)
+    x = np.minimum(linear, knee) + (1.0 - knee) * (over / (1.0 - knee + over))
+    steps = np.linspace(0.0, 1.0, 4097)
+    table = np.where(steps <= 0.0031308, 12.92 * steps, 1.055 * steps ** (1.0 / 2.4) - 0.055)
+    return np.asarray(table[np.clip(x * 4096.0, 0.0, 4096.0).astype(np.int64)])

@@ -1,0 +1,190 @@
+"""A small software rasteriser: triangles to linear light, the same on every machine.
+
+Two passes over a z-buffer: `fill` finds the nearest triangle of every sample, `shade` lights only
+what is seen. The shadow of the key light is a second z-buffer, filled from where it shines.
+Numba compiles three kernels once and caches them on disk; no thread, no fast-math: one input, one
+picture.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_FAR = 1e30
+
+_fill_types = "void(f8[:,::1], i8[:,::1], f8[:,::1], i4[:,::1])"
+
+
+@njit(_fill_types, cache=True)  # type: ignore[misc]
+def fill(screen: Any, triangles: Any, depth: Any, seen: Any) -> None:
+    """Fill a z-buffer.
+
+    Args: screen: (N, 3) x and y in samples, and a depth that is affine on the screen and grows
+    away from the eye; a vertex that is not in front of the eye has depth ≥ 1e30. triangles:
+    (F, 3). depth: (H, W), set beforehand to 1e30. seen: (H, W) gets triangle numbers, set
+    beforehand to −1.
+    """
+    height, width = depth.shape
+    for t in range(triangles.shape[0]):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        az, bz, cz = screen[a, 2], screen[b, 2], screen[c, 2]
+        if az >= _FAR or bz >= _FAR or cz >= _FAR:
+            continue
+        ax, ay = screen[a, 0], screen[a, 1]
+        bx, by = screen[b, 0], screen[b, 1]
+        cx, cy = screen[c, 0], screen[c, 1]
+        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        if area == 0.0:
+            continue
+        x0 = max(0, int(np.ceil(min(ax, bx, cx) - 0.5)))
+        x1 = min(width - 1, int(np.floor(max(ax, bx, cx) - 0.5)))
+        y0 = max(0, int(np.ceil(min(ay, by, cy) - 0.5)))
+        y1 = min(height - 1, int(np.floor(max(ay, by, cy) - 0.5)))
+        inverse = 1.0 / area
+        u_step, v_step = -(cy - by) * inverse, -(ay - cy) * inverse
+        for y in range(y0, y1 + 1):
+            py = y + 0.5
+            px = x0 + 0.5
+            u_row = ((cx - bx) * (py - by) - (cy - by) * (px - bx)) * inverse
+            v_row = ((ax - cx) * (py - cy) - (ay - cy) * (px - cx)) * inverse
+            for x in range(x0, x1 + 1):
+                u = u_row + (x - x0) * u_step
+                v = v_row + (x - x0) * v_step
+                w = 1.0 - u - v
+                if u >= 0.0 and v >= 0.0 and w >= 0.0:
+                    z = u * az + v * bz + w * cz
+                    if z < depth[y, x]:
+                        depth[y, x] = z
+                        seen[y, x] = t
+
+
+@njit("f8(f8[::1], f8[::1], f8[:,::1], f8[:,::1], i8, f8)", cache=True)  # type: ignore[misc]
+def _lit(p: Any, n: Any, shadow_from: Any, shadow: Any, size: Any, texel_m: Any) -> Any:
+    """Share of the key light that reaches a place: nine looks into the shadow buffer."""
+    s = np.empty(3)
+    for r in range(3):
+        s[r] = shadow_from[3, r]
+        for k in range(3):
+            s[r] += shadow_from[r, k] * (p[k] + 2.0 * texel_m * n[k])
+    free = 0.0
+    for i in range(3):
+        for j in range(3):
+            x = int(np.floor(s[0] + 1.6 * (i - 1)))
+            y = int(np.floor(s[1] + 1.6 * (j - 1)))
+            outside = x < 0 or y < 0 or x >= size or y >= size
+            if outside or shadow[y, x] > s[2] - 1.5 * texel_m:
+                free += 1.0
+    return free / 9.0
+
+
+_shade_types = (
+    "void(f8[:,::1], f8[:,::1], i8[:,::1], f8[:,::1], f8[:,::1], f8[:,::1], f8[::1], i4[:,::1],"
+    " f8[::1], f8[::1], f8[:,::1], f8[:,::1], f8[:,::1], f8, i8, f8[:,:,::1])"
+)
+
+
+@njit(_shade_types, cache=True)  # type: ignore[misc]
+def shade(
+    screen: Any,
+    inverse_w: Any,
+    triangles: Any,
+    places: Any,
+    normals: Any,
+    colours: Any,
+    roughness: Any,
+    seen: Any,
+    eye: Any,
+    sun: Any,
+    lights: Any,
+    shadow_from: Any,
+    shadow: Any,
+    texel_m: Any,
+    samples: Any,
+    out: Any,
+) -> None:
+    """Light every seen sample.
+
+    Args: screen, triangles, seen: as in `fill`. inverse_w: (N, 1) reciprocal distance along the
+    view, for interpolation true to perspective. places, normals: (N, 3) in the world. colours:
+    (N, 3) linear. roughness: (F,). eye, sun: (3,) the eye's place and the unit direction towards
+    the key light. lights: (4, 3) linear colours of key, sky, ground and rim. shadow_from: (4, 3)
+    rows that map a place to x, y and depth of the shadow buffer, and their constants. shadow:
+    (S, S) depths; texel_m: metres between its samples. samples: samples per pixel, each way. out:
+    (H / samples, W / samples, 4) sums of linear RGB and of seen samples are added to it.
+    """
+    height, width = seen.shape
+    size = shadow.shape[0]
+    bary = np.empty(3)
+    n = np.empty(3)
+    p = np.empty(3)
+    base = np.empty(3)
+    view = np.empty(3)
+    for y in range(height):
+        for x in range(width):
+            t = seen[y, x]
+            if t < 0:
+                continue
+            a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+            ax, ay = screen[a, 0], screen[a, 1]
+            bx, by = screen[b, 0], screen[b, 1]
+            cx, cy = screen[c, 0], screen[c, 1]
+            px, py = x + 0.5, y + 0.5
+            area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+            bary[0] = ((cx - bx) * (py - by) - (cy - by) * (px - bx)) / area * inverse_w[a, 0]
+            bary[1] = ((ax - cx) * (py - cy) - (ay - cy) * (px - cx)) / area * inverse_w[b, 0]
+            bary[2] = ((bx - ax) * (py - ay) - (by - ay) * (px - ax)) / area * inverse_w[c, 0]
+            total = bary[0] + bary[1] + bary[2]
+            length = 0.0
+            reach = 0.0
+            for k in range(3):
+                u, v, w = bary[0] / total, bary[1] / total, bary[2] / total
+                n[k] = u * normals[a, k] + v * normals[b, k] + w * normals[c, k]
+                p[k] = u * places[a, k] + v * places[b, k] + w * places[c, k]
+                base[k] = u * colours[a, k] + v * colours[b, k] + w * colours[c, k]
+                view[k] = eye[k] - p[k]
+                length += n[k] * n[k]
+                reach += view[k] * view[k]
+            length = max(np.sqrt(length), 1e-12)
+            reach = np.sqrt(reach)
+            facing = 0.0
+            for k in range(3):
+                n[k] /= length
+                view[k] /= reach
+                facing += n[k] * view[k]
+            if facing < 0.0:
+                facing = -facing
+                for k in range(3):
+                    n[k] = -n[k]
+            direct = n[0] * sun[0] + n[1] * sun[1] + n[2] * sun[2]
+            lit = 1.0
+            if direct > 0.0:
+                lit = _lit(p, n, shadow_from, shadow, size, texel_m)
+            half_x, half_y, half_z = sun[0] + view[0], sun[1] + view[1], sun[2] + view[2]
+            half = np.sqrt(half_x * half_x + half_y * half_y + half_z * half_z)
+            shine = max((n[0] * half_x + n[1] * half_y + n[2] * half_z) / half, 0.0)
+            rough = roughness[t]
+            gloss = 2.0 / (rough**4 + 1e-3)
+            grazing = (1.0 - facing) ** 3
+            mirror = (0.04 + 0.3 * grazing * (1.0 - rough)) * (gloss + 2.0) / 8.0
+            highlight = 0.0
+            if direct > 0.0 and shine > 0.5:
+                highlight = min(mirror * shine**gloss, 4.0) * direct * lit
+            up = 0.5 + 0.5 * n[1]
+            turned = min(max(direct * 4.0, 0.0), 1.0)
+            dimmed = 1.0 - 0.8 * turned * (1.0 - lit)
+            v0, u0 = y // samples, x // samples
+            for k in range(3):
+                soft = 0.26 if k == 0 else 0.20
+                wrapped = max((direct + soft) / (1.0 + soft), 0.0)
+                ambient = lights[1, k] * up + lights[2, k] * (1.0 - up)
+                light = lights[0, k] * wrapped * dimmed
+                rim = lights[3, k] * grazing * up
+                out[v0, u0, k] += base[k] * (light + ambient + rim) + lights[0, k] * highlight
+            out[v0, u0, 3] += 1.0

@@ -1,0 +1,81 @@
+"""Where an AZee bone begins and points, on any body: the input of the chain builder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.build.makehuman import Body
+
+Floats = NDArray[np.float64]
+SIDES = ("L", "R")
+FINGERS = ("index", "middle", "ring", "little")
+DIGITS = ("thumb", *FINGERS)
+PHALANGES = (1, 2, 3)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Anatomy:
+    """Joint places of a body in its own posture, metres, by AZee bone.
+
+    joints: per bone the places of its joints, proximal first; all AZee bones are there.
+    tips: per digit, such as `index_L`, the end of its last phalanx.
+    head_top: (3,). gaze: per eye a unit vector. thumb_nail: per side the thumbnail's outward unit
+    normal: it tells the plane in which the thumb bends better than the joints can.
+    """
+
+    joints: Mapping[str, Sequence[Floats]]
+    tips: Mapping[str, Floats]
+    head_top: Floats
+    gaze: Mapping[str, Floats]
+    thumb_nail: Mapping[str, Floats]
+
+    def origin(self, bone: str) -> Floats:
+        """Proximal joint of a bone."""
+        return self.joints[bone][0]
+
+
+def read_anatomy(
+    body: Body,
+    bones: Mapping[str, Sequence[str]],
+    nails: Mapping[str, NDArray[np.int64]],
+) -> Anatomy:
+    """Take the anatomy from a body through its bones-map.
+
+    Joints in the middle of a limb are moved onto the line between its ends, so that a limb can
+    share its twist among them and still have its far end where the chain puts it.
+    """
+    place = dict(zip(body.joints, body.heads, strict=True))
+    end = dict(zip(body.joints, body.tails, strict=True))
+    joints = {bone: [place[j] for j in chain] for bone, chain in bones.items()}
+    for side in SIDES:
+        for bone, following in (("arm", "f_arm"), ("f_arm", "palm")):
+            near, far = joints[f"{bone}_{side}"][0], joints[f"{following}_{side}"][0]
+            joints[f"{bone}_{side}"] = [
+                near + (far - near) * ((p - near) @ (far - near)) / ((far - near) @ (far - near))
+                for p in joints[f"{bone}_{side}"]
+            ]
+    gaze = {s: unit(end[bones[f"eye_{s}"][0]] - joints[f"eye_{s}"][0]) for s in SIDES}
+    return Anatomy(
+        joints=joints,
+        tips={f"{d}_{s}": end[bones[f"{d}_{s}_3"][0]] for d in DIGITS for s in SIDES},
+        head_top=end[bones["head"][0]],
+        gaze=gaze,
+        thumb_nail={s: _normal(body, nails[s]) for s in SIDES},
+    )
+
+
+def unit(v: Floats) -> Floats:
+    """v at length one."""
+    return np.asarray(v / np.linalg.norm(v))
+
+
+def _normal(body: Body, rows: NDArray[np.int64]) -> Floats:
+    """Mean outward normal of the faces that lie wholly among some vertices."""
+    quads = body.faces[body.faces[:, 3] >= 0]
+    quads = quads[np.isin(quads, rows).all(axis=1)]
+    corner = body.vertices[quads]
+    return unit(np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]).sum(axis=0))

@@ -1,0 +1,212 @@
+"""Fits capsules to a body: what keeps arms out of the trunk and hands out of the face.
+
+Trunk: lateral capsules, each as deep as the trunk is at its height and as wide. Limbs: along the
+bone, the radius that holds most of the skin. Hands: two, on the thumb's and on the little
+finger's side, for a palm is flat. Fingers: one per phalanx.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.build.anatomy import DIGITS, PHALANGES, SIDES, Anatomy
+from azee_rig.build.surface import Surface
+from azee_rig.chain import Frames
+from azee_rig.rig import BoneNodes, Capsules
+
+Floats = NDArray[np.float64]
+
+TRUNK_HEIGHTS = (0.0, 0.17, 0.34, 0.51, 0.67, 0.84)
+"""Of the way from the lowest back joint to the neck."""
+BAND_M = 0.03
+LIMB_SHARE = 75.0
+"""Percentile of the skin's distance from the bone that a limb's capsule holds."""
+
+
+@dataclass(eq=False)
+class _Fitter:
+    surface: Surface
+    anatomy: Anatomy
+    frames: Frames
+    node_names: tuple[str, ...]
+    bones: Mapping[str, BoneNodes]
+    joints: Mapping[str, tuple[str, ...]]
+    made: dict[str, tuple[int, Floats, Floats, float]] = field(default_factory=dict)
+
+    def add(self, name: str, node: int, a: Floats, b: Floats, radius: float) -> None:
+        R, p = self.frames.rotations[node], self.frames.positions[node]
+        self.made[name] = (node, R.T @ (a - p), R.T @ (b - p), radius)
+
+    def skin_of(self, *bones: str, at_least: float = 0.6) -> Floats:
+        """Vertices that some bones carry, (n, 3)."""
+        joints = [j for bone in bones for j in self.joints[bone]]
+        return self.surface.mesh.vertices[self.surface.share(joints) >= at_least]
+
+
+def fit_capsules(
+    surface: Surface,
+    anatomy: Anatomy,
+    frames: Frames,
+    node_names: tuple[str, ...],
+    bones: Mapping[str, BoneNodes],
+    joints: Mapping[str, tuple[str, ...]],
+) -> Capsules:
+    """Fit all capsules in the mesh's own posture and list the pairs that must not overlap."""
+    fit = _Fitter(surface, anatomy, frames, node_names, bones, joints)
+    _fit_trunk(fit)
+    _fit_head(fit)
+    for side in SIDES:
+        _fit_arm(fit, side)
+    names = tuple(fit.made)
+    nodes, a, b, radius = zip(*fit.made.values(), strict=True)
+    index = {name: i for i, name in enumerate(names)}
+    return Capsules(
+        names,
+        np.array(nodes),
+        np.array(a),
+        np.array(b),
+        np.array(radius),
+        np.array([(index[x], index[y]) for x, y in _pairs()]),
+        np.array([(index[x], index[y]) for x, y in _finger_pairs(names)]),
+    )
+
+
+def _fit_trunk(fit: _Fitter) -> None:
+    low, high = fit.anatomy.origin("back_1"), fit.anatomy.origin("neck")
+    trunk = [n for n in fit.node_names if n.startswith("back_")]
+    levels = [fit.frames.positions[fit.node_names.index(n)][1] for n in trunk]
+    skin = fit.skin_of("back_1", "back_2", "root")
+    for i, at in enumerate(TRUNK_HEIGHTS):
+        y = low[1] + at * (high[1] - low[1])
+        band = skin[np.abs(skin[:, 1] - y) < BAND_M]
+        depth = np.percentile(band[:, 2], [3.0, 97.0])
+        radius = float(depth[1] - depth[0]) / 2.0
+        half = max(float(np.percentile(np.abs(band[:, 0]), 97.0)) - radius, 0.01)
+        middle = np.array([0.0, y, depth.mean()])
+        node = trunk[max(0, sum(y >= level for level in levels) - 1)]
+        out = np.array([half, 0.0, 0.0])
+        fit.add(f"trunk_{i + 1}", fit.node_names.index(node), middle - out, middle + out, radius)
+
+
+def _fit_head(fit: _Fitter) -> None:
+    """Skull: front to back, above the ears. Face: from below the eyes to the chin. Neck."""
+    eyes = [fit.anatomy.origin(f"eye_{s}") for s in SIDES]
+    middle, apart = (eyes[0] + eyes[1]) / 2.0, float(np.linalg.norm(eyes[0] - eyes[1]))
+    head = fit.bones["head"].node
+    skin = fit.skin_of("head")
+    upper = skin[(skin[:, 1] > middle[1]) & (np.abs(skin[:, 0]) < 1.6 * apart)]
+    radius = float(np.percentile(np.abs(upper[:, 0]), 97.0))
+    back, front = np.percentile(upper[:, 2], [1.0, 97.0])
+    y = float(upper[:, 1].max()) - radius
+    fit.add(
+        "skull",
+        head,
+        np.array([0.0, y, back + radius]),
+        np.array([0.0, y, front - radius]),
+        radius,
+    )
+    lower = skin[(skin[:, 1] < middle[1] - 0.6 * apart) & (skin[:, 2] > middle[2] - 1.0 * apart)]
+    radius = float(np.percentile(np.abs(lower[:, 0]), 90.0))
+    chin, face = float(lower[:, 1].min()), float(np.percentile(lower[:, 2], 90.0))
+    fit.add(
+        "face",
+        head,
+        np.array([0.0, middle[1] - 0.3 * apart, face - radius]),
+        np.array([0.0, chin + radius, face - radius]),
+        radius,
+    )
+    _fit_limb(fit, "neck", fit.bones["neck"].node, "neck", "head", ("neck",), 0.0, 1.0)
+
+
+def _fit_arm(fit: _Fitter, side: str) -> None:
+    arm, f_arm, palm = (f"{b}_{side}" for b in ("arm", "f_arm", "palm"))
+    _fit_limb(fit, f"upper_arm_{side}", fit.bones[arm].node, arm, f_arm, (arm,), 0.45, 1.0)
+    _fit_limb(fit, f"forearm_{side}", fit.bones[f_arm].node, f_arm, palm, (f_arm,), 0.12, 1.0)
+    wrist = fit.anatomy.origin(palm)
+    flesh = fit.skin_of(palm)
+    R = fit.frames.rotations[fit.bones[palm].node]
+    for name, fingers in (("radial", ("index", "middle")), ("ulnar", ("ring", "little"))):
+        knuckle = sum(fit.anatomy.origin(f"{f}_{side}_1") for f in fingers) / 2.0
+        start = wrist + 0.25 * (knuckle - wrist)
+        depth = (flesh - start) @ R[:, 2]
+        near = np.abs((flesh - start) @ R[:, 0]) < 0.02
+        thick = np.percentile(depth[near], [5.0, 95.0])
+        middle = R[:, 2] * thick.mean() * 0.5
+        radius = float(thick[1] - thick[0]) / 2.0
+        fit.add(
+            f"hand_{side}_{name}", fit.bones[palm].node, start + middle, knuckle, min(radius, 0.019)
+        )
+    for digit in DIGITS:
+        for k in PHALANGES:
+            bone = f"{digit}_{side}_{k}"
+            near_end = fit.anatomy.origin(bone)
+            tip = fit.anatomy.tips[f"{digit}_{side}"]
+            far_end = tip if k == 3 else fit.anatomy.origin(f"{digit}_{side}_{k + 1}")
+            flesh = fit.skin_of(bone, at_least=0.5)
+            radius = _radius(flesh, near_end, far_end, 60.0)
+            if k == 3:
+                far_end = far_end - (far_end - near_end) * min(
+                    0.6, radius / float(np.linalg.norm(far_end - near_end))
+                )
+            fit.add(bone, fit.bones[bone].node, near_end, far_end, radius)
+
+
+def _fit_limb(
+    fit: _Fitter,
+    name: str,
+    node: int,
+    start: str,
+    end: str,
+    flesh_of: tuple[str, ...],
+    near: float,
+    far: float,
+) -> None:
+    a, b = fit.anatomy.origin(start), fit.anatomy.origin(end)
+    a, b = a + near * (b - a), a + far * (b - a)
+    fit.add(name, node, a, b, _radius(fit.skin_of(*flesh_of), a, b, LIMB_SHARE))
+
+
+def _radius(points: Floats, a: Floats, b: Floats, share: float) -> float:
+    """Percentile of the distances of the points beside a segment from its line."""
+    along = (points - a) @ (b - a) / ((b - a) @ (b - a))
+    beside = points[(along >= 0.0) & (along <= 1.0)]
+    foot = a + along[(along >= 0.0) & (along <= 1.0), None] * (b - a)
+    return float(np.percentile(np.linalg.norm(beside - foot, axis=1), share))
+
+
+def _arm_names(side: str) -> tuple[str, ...]:
+    return f"upper_arm_{side}", f"forearm_{side}", f"hand_{side}_radial", f"hand_{side}_ulnar"
+
+
+def _pairs() -> Iterator[tuple[str, str]]:
+    trunk = [f"trunk_{i + 1}" for i in range(len(TRUNK_HEIGHTS))]
+    for side in SIDES:
+        upper, fore, *hand = _arm_names(side)
+        yield from product([upper], trunk[:-2])
+        yield from product([fore, *hand], [*trunk, "neck", "skull", "face"])
+        yield from product([upper], ["skull", "face"])
+        yield from product(hand, [upper])
+    left, right = (_arm_names(side) for side in SIDES)
+    yield left[1], right[1]
+    yield from product(left[2:], right)
+    yield from product(left[:2], right[2:])
+
+
+def _finger_pairs(names: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    """Fingers against trunk, head and the other arm and hand; and against other digits."""
+    body = [n for n in names if n.startswith("trunk") or n in ("neck", "skull", "face")]
+    own = {
+        s: [n for n in names if n.split("_")[0] in DIGITS and n.split("_")[1] == s] for s in SIDES
+    }
+    for side, other in zip(SIDES, reversed(SIDES), strict=True):
+        yield from product(own[side], [*body, *_arm_names(other)])
+        for i, first in enumerate(own[side]):
+            for second in own[side][i + 1 :]:
+                if first.split("_")[0] != second.split("_")[0]:
+                    yield first, second
+    yield from product(own["L"], own["R"])

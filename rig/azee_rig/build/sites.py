@@ -1,0 +1,168 @@
+"""Places AZee's body sites on a mesh: from within a bone, along a direction, to the skin.
+
+The rules are data (data/site_rules.csv), one row per family of names, so that another body gets
+its sites by the same rows. Columns:
+
+name, digits, phalanges: `{F}` is a digit's letter, `{S}` the side, `{k}` the phalanx.
+bone: the AZee bone; node: the node that carries the site, where that is another one.
+from, to, at: the ray starts at that fraction of the way between two joints; or from the middle
+between the eyes (`eyes`).
+shift, unit: moves the start, along out · dir · nrm (limbs) or out · up · forward (head, trunk),
+counted in lengths of from–to (`bone`), distances between the eyes, or half shoulder widths.
+toward: direction of the ray in the same axes. `out` is the thumb's side of a hand and forearm,
+the outer side of an upper arm, the named side of head and trunk.
+hit: the first or the last point met. on: which triangles count.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.build.anatomy import DIGITS, SIDES, Anatomy
+from azee_rig.build.surface import Mask, Surface
+from azee_rig.chain import Frames
+from azee_rig.rig import BoneNodes, RigSite
+
+Floats = NDArray[np.float64]
+DIGIT = {"T": "thumb", "I": "index", "M": "middle", "R": "ring", "L": "little"}
+AXIAL = ("back", "neck", "head", "eye", "clav")
+
+
+@dataclass(frozen=True, slots=True)
+class SiteRule:
+    """One row, written out for one site."""
+
+    name: str
+    bone: str
+    node: str
+    start: str
+    end: str
+    at: float
+    shift: tuple[float, ...]
+    unit: str
+    toward: tuple[float, ...]
+    hit: str
+    on: str
+    side: str
+
+
+def read_rules(path: Path) -> Iterator[SiteRule]:
+    """All rules, written out: 292 for AZee's table."""
+    with path.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            sides = SIDES if "{S}" in row["name"] else ("",)
+            for letter in row["digits"].split() or [""]:
+                for k in row["phalanges"].split() or [""]:
+                    for side in sides:
+                        yield _written_out(row, letter, k, side)
+
+
+def _written_out(row: Mapping[str, str], letter: str, k: str, side: str) -> SiteRule:
+    digit = DIGIT.get(letter, "")
+    following = f"{digit}_{side}_{int(k or 3) + 1}" if k != "3" and k else f"tip {digit}_{side}"
+
+    def fill(text: str) -> str:
+        return text.format(F=letter, S=side, k=k, digit=digit, next=following)
+
+    bone = fill(row["bone"])
+    return SiteRule(
+        name=fill(row["name"]),
+        bone=bone,
+        node=fill(row["node"]) or bone,
+        start=fill(row["from"]),
+        end=fill(row["to"]),
+        at=float(row["at"] or 0.0),
+        shift=tuple(float(x) for x in (row["shift"] or "0 0 0").split()),
+        unit=row["unit"] or "bone",
+        toward=tuple(float(x) for x in row["toward"].split()),
+        hit=row["hit"],
+        on=row["on"],
+        side=side,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class SitePlacer:
+    """Everything a rule is read against: the body in the mesh's own posture."""
+
+    surface: Surface
+    anatomy: Anatomy
+    frames: Frames
+    bones: Mapping[str, BoneNodes]
+    joints: Mapping[str, tuple[str, ...]]
+
+    def place(self, rule: SiteRule) -> RigSite:
+        """Cast the rule's ray. Raises ValueError, with the site's name, when it meets nothing."""
+        node = self.bones[rule.node].node
+        R, origin = self.frames.rotations[node], self.frames.positions[node]
+        axes = self._axes(rule)
+        start = self._start(rule, axes)
+        try:
+            point, normal = self.surface.cast(
+                start, axes @ rule.toward, self._allowed(rule), rule.hit
+            )
+        except ValueError as error:
+            raise ValueError(f"{rule.name}: {error}") from error
+        return RigSite(rule.name, rule.bone, node, R.T @ (point - origin), R.T @ normal)
+
+    def _axes(self, rule: SiteRule) -> Floats:
+        """Columns out, dir or up, nrm or forward."""
+        sign = -1.0 if rule.side == "R" else 1.0
+        if rule.bone.startswith(AXIAL):
+            return np.diag([sign, 1.0, 1.0])
+        R = self.frames.rotations[self.bones[rule.bone].node]
+        return R * (-sign, 1.0, 1.0)
+
+    def _start(self, rule: SiteRule, axes: Floats) -> Floats:
+        if rule.start == "eyes":
+            eyes = [self.anatomy.origin(f"eye_{s}") for s in SIDES]
+            start, length = (eyes[0] + eyes[1]) / 2.0, np.linalg.norm(eyes[0] - eyes[1])
+        else:
+            start = near = self._joint(rule.start)
+            length = 0.0
+            if rule.end:
+                far = self._joint(rule.end)
+                start = near + rule.at * (far - near)
+                length = np.linalg.norm(far - near)
+        if rule.unit == "shoulders":
+            shoulders = [self.anatomy.origin(f"arm_{s}") for s in SIDES]
+            length = np.linalg.norm(shoulders[0] - shoulders[1]) / 2.0
+        return np.asarray(start + axes @ rule.shift * length)
+
+    def _joint(self, name: str) -> Floats:
+        if name.startswith("tip "):
+            return self.anatomy.tips[name.removeprefix("tip ")]
+        return self.anatomy.origin(name)
+
+    def _allowed(self, rule: SiteRule) -> Mask:
+        s = rule.side
+        match rule.on:
+            case "digit":
+                own = [b for b in self.joints if b.startswith(rule.bone.split("_")[0] + f"_{s}")]
+                if rule.bone.endswith("_1"):
+                    own.append(f"palm_{s}")
+                return self._moved(own, 0.5)
+            case "hand":
+                return self._moved([f"palm_{s}", *(f"{d}_{s}_1" for d in DIGITS)], 0.5)
+            case "arm":
+                return self._moved([f"{b}_{s}" for b in ("arm", "f_arm", "palm")], 0.3)
+            case "trunk":
+                return self._moved(["back_1", "back_2", "clav_L", "clav_R"], 0.5)
+            case "head":
+                return self.surface.on_parts("skin", "brows")
+            case "eye":
+                return self.surface.on_parts("eyes")
+            case "tongue":
+                return self.surface.on_parts("tongue")
+            case _:
+                return self.surface.on_parts("skin", "top", "bands", "trousers", "hair")
+
+    def _moved(self, bones: list[str], at_least: float) -> Mask:
+        joints = [j for bone in bones for j in self.joints[bone]]
+        return self.surface.moved_by(joints, at_least)

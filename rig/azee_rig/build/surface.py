@@ -1,0 +1,68 @@
+"""A body's visible surface, and rays cast against it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from azee_rig.mesh import BodyMesh
+from azee_rig.skeleton import Skeleton
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A dressed mesh in its own posture, with the joints that its weights speak of."""
+
+    mesh: BodyMesh
+    skeleton: Skeleton
+
+    @cached_property
+    def tree(self) -> trimesh.Trimesh:
+        """The mesh as trimesh sees it."""
+        return trimesh.Trimesh(self.mesh.vertices, self.mesh.triangles, process=False)
+
+    def on_parts(self, *names: str) -> Mask:
+        """Triangles of some parts, (F,)."""
+        mask = np.zeros(len(self.mesh.triangles), dtype=bool)
+        for part in self.mesh.parts:
+            if part.name in names:
+                mask[part.start : part.stop] = True
+        return mask
+
+    def moved_by(self, joints: Sequence[str], at_least: float) -> Mask:
+        """Triangles that some joints together carry by at least a share, (F,)."""
+        return self.share(joints)[self.mesh.triangles].mean(axis=1) >= at_least
+
+    def share(self, joints: Sequence[str]) -> Floats:
+        """Weight of some joints together on each vertex, (N,)."""
+        columns = [self.skeleton.names.index(j) for j in joints]
+        return np.asarray(self.mesh.dense_weights[:, columns].sum(axis=1))
+
+    def cast(self, start: Floats, toward: Floats, allowed: Mask, hit: str) -> tuple[Floats, Floats]:
+        """The first or last point where a ray meets allowed triangles, and the normal there.
+
+        The normal is interpolated from the vertices. Raises ValueError when nothing is met.
+        """
+        direction = toward / np.linalg.norm(toward)
+        places, _, triangles = self.tree.ray.intersects_location(
+            [start], [direction], multiple_hits=True
+        )
+        distance = (places - start) @ direction
+        usable = [i for i in np.argsort(distance) if allowed[triangles[i]]]
+        if not usable:
+            raise ValueError("the ray meets nothing that it may meet")
+        found = usable[0] if hit == "first" else usable[-1]
+        corners = self.mesh.triangles[triangles[found]]
+        shares = trimesh.triangles.points_to_barycentric(
+            self.mesh.vertices[corners][None], places[found][None]
+        )[0]
+        normal = shares @ self.mesh.normals[corners]
+        return places[found], np.asarray(normal / np.linalg.norm(normal))

@@ -1,0 +1,49 @@
+"""`azee rules` tells what ships."""
+
+from __future__ import annotations
+
+import pytest
+
+from azee.cli.main import run
+from azee.lang.library import shipped_library
+from azee.lang.rule import Rule
+from azee_grammar.library import shipped_names
+
+SHIPPED = [
+    rule for name in shipped_names() for rule in shipped_library(name).namespace.rules.values()
+]
+
+
+def test_the_list_has_every_rule_with_its_meaning(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["rules"]) == 0
+    lines = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+    assert len(SHIPPED) > 20
+    for rule in SHIPPED:
+        assert f"{rule.name} {' '.join((rule.entry('meaning') or '').split())}" in lines
+
+
+@pytest.mark.parametrize("rule", SHIPPED, ids=lambda rule: rule.name)
+def test_a_rule_tells_its_meaning_source_and_arguments(
+    rule: Rule, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["rules", rule.name]) == 0
+    words = " ".join(capsys.readouterr().out.split())
+    for entry in ("meaning", "source"):
+        text = rule.entry(entry)
+        assert text, f"{rule.name} has no {entry}"
+        assert " ".join(text.split()) in words
+    for parameter, mandatory in rule.parameters:
+        assert f"'{parameter} {'mandatory' if mandatory else 'by default'}" in words
+
+
+def test_the_colon_may_be_written(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["rules", ":info-about"]) == 0
+    assert capsys.readouterr().out.startswith(":info-about\n  library   core\n")
+
+
+def test_an_unknown_rule_gets_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["rules", "info-abuot"]) == 1
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith("error[unknown-rule]: no rule `info-abuot` ships\n")
+    assert "info-about" in captured.err

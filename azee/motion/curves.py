@@ -12,8 +12,10 @@ A limb that nothing needs for a while goes on to where it is next needed, or to 
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -53,7 +55,7 @@ class LimbKey:
     held: bool = False
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class LimbTrack:
     """All keys of one limb, rests included, in order of time; at rest before and after."""
 
@@ -75,12 +77,22 @@ class LimbTrack:
         out = np.broadcast_to(self.rest, (len(times_s), len(self.rest))).copy()
         if not len(times_s):
             return out
-        stops = [i for i, key in enumerate(self.keys) if not key.passing]
-        for first, last in pairwise(stops):
-            run = self.keys[first : last + 1]
-            if run[0].time_s <= times_s[-1] and times_s[0] <= run[-1].time_s:
-                _run(run, times_s, out)
+        first, last = float(times_s[0]), float(times_s[-1])
+        for run in self.runs[bisect_left(self._ends, first) :]:
+            if run[0].time_s > last:
+                break
+            _run(run, times_s, out)
         return out
+
+    @cached_property
+    def runs(self) -> tuple[tuple[LimbKey, ...], ...]:
+        """The keys from each stop to the next, both included."""
+        stops = [i for i, key in enumerate(self.keys) if not key.passing]
+        return tuple(self.keys[a : b + 1] for a, b in pairwise(stops))
+
+    @cached_property
+    def _ends(self) -> list[float]:
+        return [run[-1].time_s for run in self.runs]
 
 
 def track(keys: Sequence[LimbKey], rest: Array) -> LimbTrack:

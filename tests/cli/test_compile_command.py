@@ -1,0 +1,183 @@
+"""`azee compile` on texts that are right: formats, options, exit codes, the library call."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+from formats import schema
+from programs import Python
+
+import azee
+from azee.cli.main import run
+from azee.compilation import SUFFIXES
+
+TOUCH = """\
+key .5
+    cstr
+        place @I_TIP(s) @CH
+        orient 'nrm !palm(s) 'along in(s)
+"""
+TWO = "key .5 (look ^fwd)\nkey .5 (rotate !head ^up 20)\n"
+OUT_OF_REACH = "key .2 (place @PA(s) point(0, 0, 3))\n"
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_with_texts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name, text in {"touch": TOUCH, "two": TWO, "far": OUT_OF_REACH}.items():
+        Path(f"{name}.azee").write_text(text, encoding="utf-8")
+
+
+def _clip(path: str) -> dict[str, Any]:
+    document: dict[str, Any] = json.loads(Path(path).read_text(encoding="utf-8"))
+    return document
+
+
+@pytest.mark.slow
+def test_every_format_from_one_solution(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import azee.motion.animate as motion
+
+    calls = []
+    original = motion.animate
+
+    def counted(*arguments: Any, **options: Any) -> Any:
+        calls.append(arguments)
+        return original(*arguments, **options)
+
+    monkeypatch.setattr(motion, "animate", counted)
+    outputs = [f"touch{suffix}" for suffix in SUFFIXES]
+    arguments = [word for output in outputs for word in ("-o", output)]
+    assert run(["compile", "touch.azee", *arguments, "--report", "touch.report.json"]) == 0
+    assert len(calls) == 1
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    for output in [*outputs, "touch.report.json"]:
+        assert Path(output).stat().st_size > 500
+        assert f"wrote {output} (" in captured.err
+    assert "all constraints are met" in captured.err
+    jsonschema.validate(_clip("touch.json"), schema("clip"))
+    jsonschema.validate(_clip("touch.report.json"), schema("report"))
+
+
+def test_the_body_does_what_the_text_says() -> None:
+    assert run(["compile", "touch.azee", "-o", "touch.json", "--quiet"]) == 0
+    made = azee.compile(Path("touch.azee"))
+    assert made.report.met
+    rig, clip = made.rig, made.clip
+    middle = np.abs(clip.times - (made.report.lead_s + 0.25)).argmin()
+    frames = rig.chain.frames(clip.coordinates[middle])
+
+    def world(site: str) -> Any:
+        found = rig.sites[site]
+        return frames.positions[found.node] + frames.rotations[found.node] @ found.position
+
+    assert np.linalg.norm(world("I_TIP_R") - world("CH")) < 1e-3
+    np.testing.assert_allclose(_clip("touch.json")["times"], clip.times, atol=1e-6)
+
+
+def test_the_other_hand_signs_for_a_left_handed_signer() -> None:
+    right = azee.compile(TOUCH, life=False)
+    left = azee.compile(TOUCH, dominant="left", life=False)
+    names = right.rig.coordinates.index
+    for made, moved, still in ((right, "R", "L"), (left, "L", "R")):
+        ranges = np.ptp(made.clip.coordinates, axis=0)
+        assert ranges[names[f"f_arm_{moved}.flexion"]] > 0.2
+        assert ranges[names[f"f_arm_{still}.flexion"]] < 1e-6
+
+
+def test_frames_come_as_often_as_asked() -> None:
+    for fps in (12, 60):
+        assert run(["compile", "two.azee", "-o", "a.json", "--fps", str(fps), "--quiet"]) == 0
+        np.testing.assert_allclose(np.diff(_clip("a.json")["times"]), 1 / fps, atol=2e-6)
+
+
+def test_utterances_play_one_after_the_other_or_alone() -> None:
+    both, first = azee.compile(TWO), azee.compile(TWO, utterance=1)
+    assert both.score.duration == 2
+    assert first.score.duration == 0.5
+    expression = azee.compile(TWO, expression="key 3 (look ^up)")
+    assert expression.score.duration == 3
+
+
+def test_standard_input_and_expressions(python: Python) -> None:
+    given = "-m", "azee", "compile"
+    python(*given, "-", "-o", "a.json", "--no-life", stdin=TOUCH, expect=0)
+    python(*given, "touch.azee", "-o", "b.json", "--no-life", expect=0)
+    assert Path("a.json").read_bytes() == Path("b.json").read_bytes()
+    done = python(*given, "-e", "key .5 (look ^fwd)", expect=0)
+    assert "nothing written" in done.stderr
+    assert done.stdout == ""
+
+
+def test_the_same_text_gives_the_same_bytes() -> None:
+    for name in ("a.glb", "b.glb"):
+        assert run(["compile", "touch.azee", "-o", name, "--quiet"]) == 0
+    assert Path("a.glb").read_bytes() == Path("b.glb").read_bytes()
+
+
+def test_json_for_scripts(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["compile", "touch.azee", "-o", "touch.bvh", "--format", "json"]) == 0
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    document = json.loads(captured.out)
+    assert document["outputs"] == ["touch.bvh"]
+    jsonschema.validate(document, schema("diagnostics"))
+    jsonschema.validate(document["report"], schema("report"))
+
+
+def test_a_miss_is_named_and_strict_makes_it_count(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["compile", "far.azee", "-o", "far.bvh", "--quiet"]) == 0
+    assert capsys.readouterr().err == ""
+    assert run(["compile", "far.azee", "-o", "far.bvh", "--strict"]) == 3
+    told = capsys.readouterr().err
+    assert "1 constraint is out of tolerance" in told
+    assert "place PA_R" in told
+    assert "mm" in told
+    assert Path("far.bvh").exists()
+    assert run(["compile", "touch.azee", "--strict", "--quiet"]) == 0
+
+
+def test_a_fault_while_writing_leaves_no_file(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("azee.export.files.os.fsync", full)
+    before = sorted(Path().iterdir())
+    assert run(["compile", "two.azee", "-o", "two.bvh"]) == 1
+    assert "error[cannot-write]: cannot write `two.bvh`: no space left" in capsys.readouterr().err
+    assert sorted(Path().iterdir()) == before
+
+
+def test_the_library_takes_paths_and_texts(tmp_path: Path) -> None:
+    scores = [azee.compile(given).score for given in ("two.azee", Path("two.azee"), TWO)]
+    assert scores[0] == scores[1] == scores[2]
+    with pytest.raises(azee.AZeeError, match="cannot-read"):
+        azee.compile("missing.azee")
+    with pytest.raises(ValueError, match="suffix"):
+        azee.compile(TWO).save(tmp_path / "x.docx")
+    with pytest.raises(azee.AZeeError, match="cannot-write"):
+        azee.compile(TWO).save(tmp_path / "missing" / "x.bvh")
+
+
+def test_a_rig_that_lacks_a_name_is_an_error_of_the_text() -> None:
+    from dataclasses import replace
+
+    from azee.compilation import perform
+    from azee_rig.load import load_rig
+
+    rig = load_rig()
+    sites = {name: site for name, site in rig.sites.items() if name != "CH"}
+    score = azee.compile(TOUCH).score
+    with pytest.raises(azee.AZeeError, match="rig-lacks-site") as caught:
+        perform(score, replace(rig, sites=sites))
+    (diagnostic,) = caught.value.diagnostics
+    assert "`CH`" in diagnostic.message

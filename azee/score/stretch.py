@@ -1,9 +1,9 @@
 """Stretching: one score, another length.
 
 Stretching multiplies every time inside a score by the same factor, offsets included. What is
-`fixed` inside keeps its length: the time line of a group is then warped with slope 1 wherever
-something fixed lasts and with one common slope elsewhere, so that the whole has the length that
-was asked for and order and coincidences are kept.
+`fixed` inside keeps its length: the time line of the whole is then warped with slope 1 wherever
+something fixed lasts and with one common slope elsewhere. So the whole has the length that was
+asked for, and order and coincidences are kept through all levels.
 """
 
 from __future__ import annotations
@@ -34,22 +34,23 @@ def stretched(score: Score, duration_s: Fraction) -> Score:
         raise ValueError("a score cannot have a negative length")
     if score.fixed:
         raise _refusal(f"a score fixed at {decimal(score.duration)} s", duration_s)
-    return _stretched(score, duration_s)
-
-
-def _stretched(score: Score, duration_s: Fraction) -> Score:
     if not isinstance(score, Group):
         return replace(score, duration=duration_s)
-    warp = _warp(score, duration_s)
+    return _warped(score, _ZERO, _warp(score, duration_s))
+
+
+def _warped(score: Score, start: Fraction, warp: _Warp) -> Score:
+    """Return a score that begins at `start` of the whole with all its times warped."""
+    origin = warp(start)
+    duration_s = warp(start + score.duration) - origin
+    if not isinstance(score, Group):
+        return replace(score, duration=duration_s)
     blocks = []
     for block in score.blocks:
-        interval = Interval(
-            warp(block.interval_in_parent.start), warp(block.interval_in_parent.end)
-        )
-        inner = block.score
-        if interval.duration != inner.duration:
-            inner = _stretched(inner, interval.duration)
-        blocks.append(replace(block, interval_in_parent=interval, score=inner))
+        interval = block.interval_in_parent.shifted(start)
+        warped = Interval(warp(interval.start) - origin, warp(interval.end) - origin)
+        inner = _warped(block.score, interval.start, warp)
+        blocks.append(replace(block, interval_in_parent=warped, score=inner))
     return replace(score, duration=duration_s, blocks=tuple(blocks))
 
 

@@ -38,30 +38,43 @@ def morph_targets(mesh: BodyMesh) -> Iterator[MorphTarget]:
     A normal is the mean of the normals around it, weighted by area, as in `vertex_normals`; only
     triangles that the unit moves are computed again.
     """
-    T = mesh.triangles
+    T, count = mesh.triangles, len(mesh.vertices)
     faces = _cross(mesh.vertices, T)
-    sums = np.zeros_like(mesh.vertices)
-    for corner in range(3):
-        np.add.at(sums, T[:, corner], faces)
+    sums = _summed(faces, T, count)
     normals = _unit(sums)
     for name in mesh.units:
         rows, deltas = mesh.unit(name)
         vertices = mesh.vertices.copy()
         vertices[rows] += deltas
-        moved = np.zeros(len(vertices), bool)
-        moved[rows] = True
-        touched = np.flatnonzero(moved[T[:, 0]] | moved[T[:, 1]] | moved[T[:, 2]])
-        change = _cross(vertices, T[touched]) - faces[touched]
-        around, place = np.unique(T[touched], return_inverse=True)
-        place = place.reshape(-1, 3)
-        total = sums[around]
-        for corner in range(3):
-            np.add.at(total, place[:, corner], change)
-        turns = _unit(total) - normals[around]
+        moved = _marked(rows, count)
+        touched = T[moved[T[:, 0]] | moved[T[:, 1]] | moved[T[:, 2]]]
+        change = _cross(vertices, touched) - _cross(mesh.vertices, touched)
+        around = np.flatnonzero(_marked(touched.ravel(), count))
+        turns = _unit(sums[around] + _summed(change, touched, count)[around]) - normals[around]
         order = np.argsort(rows)
-        far = np.abs(deltas[order]).max(axis=1) > LEAST_MOVE_M
-        seen = np.abs(turns).max(axis=1) > LEAST_TURN
+        far = _largest(deltas[order]) > LEAST_MOVE_M
+        seen = _largest(turns) > LEAST_TURN
         yield MorphTarget(rows[order][far], deltas[order][far], around[seen], turns[seen])
+
+
+def _summed(faces: Floats, triangles: NDArray[np.int64], count: int) -> Floats:
+    """Return for each of `count` vertices the sum over the triangles that it is a corner of."""
+    corners = triangles.T.ravel()
+    return np.stack(
+        [np.bincount(corners, np.tile(faces[:, k], 3), count) for k in range(3)], axis=1
+    )
+
+
+def _marked(rows: NDArray[np.int64], count: int) -> NDArray[np.bool_]:
+    marks = np.zeros(count, np.bool_)
+    marks[rows] = True
+    return marks
+
+
+def _largest(vectors: Floats) -> Floats:
+    """Return the largest component of each vector, by amount."""
+    x, y, z = np.abs(vectors).T
+    return np.asarray(np.maximum(np.maximum(x, y), z))
 
 
 def _cross(vertices: Floats, triangles: NDArray[np.int64]) -> Floats:

@@ -1,0 +1,98 @@
+"""Every example compiles to every format, keeps its promises, and is read back by others."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+from formats import schema
+from PIL import Image
+from plain_bvh import PlainBvh
+from programs import Node
+
+from azee.cli.main import run
+from azee.compilation import SUFFIXES
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SOURCES = sorted(EXAMPLES.glob("*/*.azee"))
+MILLIMETRE = 1e-3
+CENTIMETRE = 1e-2
+
+each = pytest.mark.parametrize("source", SOURCES, ids=lambda source: source.stem)
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """All examples, built as `make examples` builds them."""
+    out = tmp_path_factory.mktemp("examples")
+    script = EXAMPLES / "build.py"
+    done = subprocess.run(
+        [sys.executable, script, "--out", out], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return out
+
+
+def _output(built: Path, source: Path, suffix: str) -> Path:
+    return built / source.parent.name / f"{source.stem}{suffix}"
+
+
+def _document(path: Path) -> dict[str, Any]:
+    document: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    return document
+
+
+@each
+def test_the_text_has_no_faults(source: Path) -> None:
+    assert run(["check", "--quiet", str(source)]) == 0
+
+
+@each
+def test_the_folder_tells_of_it(source: Path) -> None:
+    readme = (source.parent / "README.md").read_text(encoding="utf-8")
+    assert f"azee compile {source.name}" in readme or f"/{source.name}" in readme
+    assert source.with_suffix(".png").name in readme
+    assert Image.open(source.with_suffix(".png")).width > 300
+
+
+@pytest.mark.slow
+@each
+def test_every_format_is_there(source: Path, built: Path) -> None:
+    for suffix in (*SUFFIXES, ".report.json"):
+        assert _output(built, source, suffix).stat().st_size > 1000
+    jsonschema.validate(_document(_output(built, source, ".json")), schema("clip"))
+
+
+@pytest.mark.slow
+@each
+def test_no_coordinate_leaves_its_limits_and_misses_are_told_of(source: Path, built: Path) -> None:
+    report = _document(_output(built, source, ".report.json"))
+    jsonschema.validate(report, schema("report"))
+    assert report["limits"]["max_excess_rad"] == 0
+    readme = (source.parent / "README.md").read_text(encoding="utf-8")
+    missed = [c for c in report["constraints"] if not c["met"]]
+    untold = [c for c in missed if c["subject"] not in readme]
+    assert untold == []
+
+
+@pytest.mark.slow
+@each
+def test_the_bvh_gives_our_joints(source: Path, built: Path) -> None:
+    read = PlainBvh(_output(built, source, ".bvh").read_text(encoding="ascii"))
+    clip = _document(_output(built, source, ".json"))
+    plain = [name.replace(".", "_").replace("-", "_") for name in clip["skeleton"]["names"]]
+    ours = np.array(clip["positions"])[:, [plain.index(name) for name in read.names]]
+    assert np.abs(read.positions() * CENTIMETRE - ours).max() < MILLIMETRE / 10
+
+
+@pytest.mark.slow
+@each
+def test_the_khronos_validator_has_nothing_to_say(source: Path, built: Path, node: Node) -> None:
+    report = json.loads(node("validate.mjs", _output(built, source, ".glb")))
+    assert report["issues"]["messages"] == []

@@ -29,14 +29,18 @@ class Mistakes:
     def __init__(self, source: Source, tokens: Sequence[Token]) -> None:
         self._source = source
         self._tokens = tokens
+        self._frame_is_wrong = False
 
-    def at(self, index: int, state: State) -> Diagnostic:
+    def at(self, index: int, state: State) -> Diagnostic | None:
         """Explain why the token at an index cannot follow those before it.
 
-        `state` is that of the automaton: its keys are what could have followed.
+        `state` is that of the automaton: its keys are what could have followed. None is returned
+        where an earlier mistake is likely to be the reason.
         """
         if self._tokens[0].kind == "DEF" and (found := self._in_definition(index, state)):
-            return found
+            first = not self._frame_is_wrong
+            self._frame_is_wrong = True
+            return found if first else None
         if self._tokens[0].kind == "USE":
             return self._in_use(index)
         token = self._tokens[index]

@@ -70,7 +70,8 @@ def _read(
     mistakes = Mistakes(source, tokens)
 
     def mistaken(at: int, state: State) -> None:
-        diagnostics.append(mistakes.at(at, state))
+        if found := mistakes.at(at, state):
+            diagnostics.append(found)
 
     try:
         value = Automaton(tokens, builder, mistaken).run(start)

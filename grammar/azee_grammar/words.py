@@ -47,7 +47,8 @@ class WordReader:
     ) -> None:
         self.source = source
         self.text = source.text
-        self.report = report
+        self._report = report
+        self._said = 0
         self.comments = comments
         self._foreign = False  # whether a bracket of another language was reported on this line
 
@@ -65,6 +66,7 @@ class WordReader:
                 spaced = True
                 continue
             c = text[at]
+            said = self._said
             if c == "#" and spaced:
                 self.comments.append((at, end))
                 break
@@ -77,7 +79,8 @@ class WordReader:
             else:
                 token = self._word(at, end)
             if glued and token.kind not in _AFTER_WORD:
-                self.report(misspelt.missing_space(self._span(token.start, token.end)))
+                if self._said == said:
+                    self._say(misspelt.missing_space(self._span(token.start, token.end)))
                 token = token._replace(kind=BAD)
             tokens.append(token)
             at = token.end
@@ -94,14 +97,18 @@ class WordReader:
         name = rest.strip()
         at = start + 3 + len(rest) - len(rest.lstrip())
         if not name:
-            self.report(misspelt.definition_without_name(self._span(start, start + 3)))
+            self._say(misspelt.definition_without_name(self._span(start, start + 3)))
             return [head, Token(BAD, head.end, head.end)]
         token = Token("NAME", at, at + len(name), self._visible(name, at))
         problem = misspelt.rule_name(name, self._span(token.start, token.end))
         if problem:
-            self.report(problem)
+            self._say(problem)
             return [head, token._replace(kind=BAD)]
         return [head, token]
+
+    def _say(self, diagnostic: Diagnostic) -> None:
+        self._said += 1
+        self._report(diagnostic)
 
     def _span(self, start: int, end: int) -> Span:
         return Span(self.source, start, end)
@@ -109,7 +116,7 @@ class WordReader:
     def _text(self, start: int, end: int) -> Token:
         close = self.text.find('"', start + 1, end)
         if close < 0:
-            self.report(misspelt.unclosed_text(self._span(start, end)))
+            self._say(misspelt.unclosed_text(self._span(start, end)))
             return Token(BAD, start, end)
         return Token("TEXT", start, close + 1, self.text[start + 1 : close])
 
@@ -133,7 +140,7 @@ class WordReader:
         digits = sum(c.isdigit() for c in word)
         if digits > MOST_DIGITS:
             span = self._span(token.start, token.end)
-            self.report(misspelt.too_many_digits(span, digits, MOST_DIGITS))
+            self._say(misspelt.too_many_digits(span, digits, MOST_DIGITS))
             return token._replace(text="0")
         return token
 
@@ -149,21 +156,21 @@ class WordReader:
             assert found, "a letter begins a word"
             at = found.end()
         if name_start == word_end:
-            self.report(misspelt.missing_name(self._span(start, word_end)))
+            self._say(misspelt.missing_name(self._span(start, word_end)))
             return Token(BAD, start, word_end)
         name = text[name_start:at]
         if problem := misspelt.rule_name(name, self._span(start, at)):
-            self.report(problem)
+            self._say(problem)
             return Token(BAD, start, at)
         return Token(kind, start, at, self._visible(name, name_start))
 
     def _named(self, kind: str, start: int, word: str) -> Token:
         stop = start + len(word)
         if len(word) == 1:
-            self.report(misspelt.missing_name(self._span(start, stop)))
+            self._say(misspelt.missing_name(self._span(start, stop)))
             return Token(BAD, start, stop)
         if kind == "SYMBOL" and (place := misspelt.minus_in_ref(word)):
-            self.report(misspelt.not_a_minus(self._span(start + place[0], start + place[1])))
+            self._say(misspelt.not_a_minus(self._span(start + place[0], start + place[1])))
         return Token(kind, start, stop, self._visible(word[1:], start + 1))
 
     def _bare(self, start: int, end: int, word: str, called: bool) -> Token:
@@ -177,28 +184,28 @@ class WordReader:
         if first in misspelt.QUOTES:
             return self._curly_text(start, end)
         if first in misspelt.APOSTROPHES:
-            self.report(misspelt.curly_apostrophe(span))
+            self._say(misspelt.curly_apostrophe(span))
             return Token("SYMBOL", start, stop, self._visible(word, start))
         if not called and misspelt.looks_like_number(word):
-            self.report(misspelt.bad_number(span))
+            self._say(misspelt.bad_number(span))
             return Token("NUMBER", start, stop, "0")
         if problem := misspelt.bracket(span):
             if not self._foreign:
-                self.report(problem)
+                self._say(problem)
             self._foreign = True
             return Token(BAD, start, stop)
         return Token("OPERATOR", start, stop, self._visible(word, start))
 
     def _curly_text(self, start: int, end: int) -> Token:
         close = misspelt.closing_quote(self.text, start, end)
-        self.report(misspelt.curly_quotes(self._span(start, close)))
+        self._say(misspelt.curly_quotes(self._span(start, close)))
         return Token("TEXT", start, close, self.text[start + 1 : close - 1])
 
     def _visible(self, name: str, start: int) -> str:
         """Return the name at `start` in NFC; a character that nobody sees is reported."""
         if found := misspelt.INVISIBLE.search(name):
             at = start + found.start()
-            self.report(misspelt.invisible(self._span(at, at + 1)))
+            self._say(misspelt.invisible(self._span(at, at + 1)))
         return _normal(name)
 
 

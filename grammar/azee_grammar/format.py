@@ -1,0 +1,259 @@
+"""One way to lay a text out: the canonical form, and the published one with a token a line.
+
+The tree does not change, only its layout. In canonical form an application whose operands need no
+lines of their own stays on one line of at most 80 columns; else each operand has a line, a symbol
+together with its value. Comments stay by the line they were written at.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Sequence
+
+from azee_grammar.diagnostic import AZeeError
+from azee_grammar.misspelt import looks_like_number
+from azee_grammar.parser import parse
+from azee_grammar.rows import rows
+from azee_grammar.source import Source, Span
+from azee_grammar.syntax import (
+    Application,
+    BoneName,
+    Definition,
+    Expr,
+    File,
+    Head,
+    Hole,
+    Named,
+    Number,
+    OperatorName,
+    Parameter,
+    RuleName,
+    SideWord,
+    SiteName,
+    Symbol,
+    Text,
+    Use,
+)
+from azee_grammar.weave import Line, weave
+
+WIDTH = 80
+INDENT = "    "
+
+
+def format_file(text: File | Source, *, published: bool = False) -> str:
+    """Return a text in canonical form, or with `published` in that of the publications.
+
+    In published form one token stands on each line. Calls of bones and sites, and of rules whose
+    operands are all named, become lines; other calls stay, as only the declaration of a rule
+    tells the names of its operands.
+
+    Raises: AZeeError: the text has mistakes.
+    """
+    source = text if isinstance(text, Source) else text.span.source
+    parsed = parse(source, template=True)
+    if parsed.diagnostics:
+        raise AZeeError(*parsed.diagnostics)
+    items = parsed.file.items if isinstance(text, Source) else text.items
+    printer = _Printer(parsed.comments, published=published)
+    for item in items:
+        if isinstance(item, Use):
+            printer.line(0, f"use '{item.library.name}", item.span)
+        elif isinstance(item, Definition):
+            printer.definition(item)
+        else:
+            printer.expression(item.expr, 0)
+    return weave(printer.lines, source, parsed.comments, INDENT)
+
+
+class _Printer:
+    """Lays expressions out as lines, each with the range of the text it comes from."""
+
+    def __init__(self, comments: Sequence[Span], *, published: bool) -> None:
+        self.lines: list[Line] = []
+        self._comments = [comment.start for comment in comments]
+        self._published = published
+
+    def line(self, depth: int, text: str, span: Span) -> None:
+        """Add a line."""
+        self.lines.append(Line(depth, text, span.start, span.end))
+
+    def definition(self, node: Definition) -> None:
+        """Lay out a definition: name, entries, body."""
+        if node.body is None:
+            raise ValueError(f"the body of {node.name} was left out by a mistake")
+        self.line(
+            0, f"def {node.name}", Span(node.span.source, node.span.start, node.name_span.end)
+        )
+        for name, text in node.entries:
+            if self._published:
+                self.line(1, _flat(name), name.span)
+                self.line(1, _flat(text), text.span)
+            else:
+                self.line(1, f"{_flat(name)} {_flat(text)}", name.span.to(text.span))
+        if isinstance(node.body, Symbol):
+            # A symbol there would be read as the name of an entry.
+            self.line(1, f"({_flat(node.body)})", node.body.span)
+        else:
+            self.expression(node.body, 1)
+
+    def expression(self, node: Expr, depth: int, lead: Symbol | None = None) -> None:
+        """Lay out an expression at a depth, behind a symbol on the same line if one leads."""
+        if self._published:
+            node = _uncalled(node)
+        span = node.span if lead is None else lead.span.to(node.span)
+        prefix = "" if lead is None else f"{_flat(lead)} "
+        if not isinstance(node, Application):
+            self.line(depth, prefix + _flat(node), span)
+        elif node.called:
+            self._call(node, depth, prefix, span)
+        else:
+            self._application(node, depth, prefix, span)
+
+    def _application(self, node: Application, depth: int, prefix: str, span: Span) -> None:
+        if self._in_line(node):
+            flat = _flat(node, nested=bool(prefix))
+            if self._fits(depth, prefix + flat):
+                self.line(depth, prefix + flat, span)
+                return
+        head = Span(span.source, span.start, node.head.span.end)
+        self.line(depth, prefix + _head(node.head), head)
+        if self._published:
+            for operand in node.operands:
+                assert not isinstance(operand, Named)
+                self.expression(operand, depth + 1)
+            return
+        for row in rows(node):
+            self._row(row, depth + 1)
+
+    def _row(self, row: Sequence[Expr], depth: int) -> None:
+        first = row[0]
+        span = first.span.to(row[-1].span)
+        if len(row) > 1 and not self._commented(span) and all(map(self._in_line, row)):
+            flat = _joined([_flat(part, nested=True) for part in row], row)
+            if self._fits(depth, flat):
+                self.line(depth, flat, span)
+                return
+        if len(row) == 2 and isinstance(first, Symbol):
+            self.expression(row[1], depth, lead=first)
+            return
+        for part in row:
+            self.expression(part, depth)
+
+    def _call(
+        self, node: Application, depth: int, prefix: str, span: Span, after: str = ""
+    ) -> None:
+        """Lay out a call, with `after` behind its parenthesis."""
+        flat = f"{prefix}{_flat(node)}{after}"
+        whole = not self._commented(node.span) and self._fits(depth, flat)
+        if whole or not node.operands:
+            self.line(depth, flat, span)
+            return
+        opened = Span(span.source, span.start, node.head.span.end + 1)
+        self.line(depth, f"{prefix}{_head(node.head)}(", opened)
+        for operand in node.operands[:-1]:
+            self._argument(operand, depth + 1, ",")
+        self._argument(node.operands[-1], depth + 1, "")
+        closed = Span(span.source, node.span.end - 1, node.span.end)
+        self.line(depth, f"){after}", closed)
+
+    def _argument(self, node: Expr | Named, depth: int, after: str) -> None:
+        prefix, value = ("", node)
+        if isinstance(node, Named):
+            prefix, value = f"{_flat(node.name)} = ", node.value
+        if isinstance(value, Application) and value.called:
+            self._call(value, depth, prefix, node.span, after)
+        else:
+            self.line(depth, f"{prefix}{_flat(value)}{after}", node.span)
+
+    def _in_line(self, node: Expr | Named) -> bool:
+        """Whether a node may stand on one line: its operands are words, calls or bare heads."""
+        if self._published and isinstance(node, Application) and node.operands:
+            return False
+        if self._commented(node.span):
+            return False
+        if not isinstance(node, Application) or node.called:
+            return True
+        return all(
+            not isinstance(operand, Application) or operand.called or not operand.operands
+            for operand in node.operands
+        )
+
+    def _commented(self, span: Span) -> bool:
+        at = bisect_left(self._comments, span.start)
+        return at < len(self._comments) and self._comments[at] < span.end
+
+    def _fits(self, depth: int, text: str) -> bool:
+        return len(INDENT) * depth + len(text) <= WIDTH
+
+
+def _flat(node: Expr | Named, *, nested: bool = False) -> str:
+    """Return an expression as one line; `nested` puts it in parentheses where it has operands."""
+    match node:
+        case Number(text=text):
+            return text
+        case Text(text=text):
+            return f'"{text}"'
+        case Symbol(name=name):
+            return f"'{name}"
+        case Parameter(name=name):
+            return f"^{name}"
+        case Hole(name=name):
+            return f"?{name}"
+        case SideWord(name=name):
+            return name
+        case Named(name=symbol, value=value):
+            return f"'{symbol.name} = {_flat(value)}"
+        case Application(head=head, operands=operands, called=True):
+            return f"{_head(head)}({', '.join([_flat(operand) for operand in operands])})"
+        case Application(head=head, operands=operands):
+            parts = [_head(head), *[_flat(operand, nested=True) for operand in operands]]
+            text = _joined(parts, [Application(head.span, head, (), called=False), *operands])
+            return f"({text})" if nested and operands else text
+
+
+def _joined(parts: Sequence[str], nodes: Sequence[Expr | Named]) -> str:
+    """Join words with spaces.
+
+    The name of a rule would take up a word behind it that begins with a letter: parentheses
+    around that word keep it apart.
+    """
+    text = parts[0]
+    for i in range(1, len(parts)):
+        before = nodes[i - 1]
+        open_name = (
+            isinstance(before, Application)
+            and isinstance(before.head, RuleName)
+            and not before.called
+            and not before.operands
+        )
+        text += f" ({parts[i]})" if open_name and parts[i][0].isalpha() else f" {parts[i]}"
+    return text
+
+
+def _head(head: Head) -> str:
+    match head:
+        case RuleName(name=name, form=form):
+            return form.value + name
+        case BoneName(name=name):
+            return f"!{name}"
+        case SiteName(name=name):
+            return f"@{name}"
+        case OperatorName(name=name):
+            return name
+
+
+def _uncalled(node: Expr) -> Expr:
+    """Return a call as an application with lines for its operands, where that says the same."""
+    if not isinstance(node, Application) or not node.called:
+        return node
+    operands: list[Expr] = []
+    for operand in node.operands:
+        if isinstance(operand, Named):
+            operands += (operand.name, operand.value)
+        elif isinstance(node.head, BoneName | SiteName):
+            operands.append(operand)
+        else:
+            return node
+    if isinstance(node.head, OperatorName) or looks_like_number(_head(node.head)):
+        return node
+    return Application(node.span, node.head, tuple(operands), called=False)

@@ -81,7 +81,7 @@ class BodyPart(Code):
 
     def _lacking(self) -> Sequence[Fault]:
         if self.entry.takes_side and not self.entry.side_optional:
-            message = f"{self.title} lacks its side: it takes {self.takes}"
+            message = f"{self.title} lacks its side"
             sigil = "!" if self.wanted is Kind.BONE else "@"
             more = f", {self.entry.phalanges[0]}" if self.entry.takes_phalanx else ""
             hint = f"write `{sigil}{self.entry.name}(s{more})`: s, w, L or R"

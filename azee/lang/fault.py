@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from azee_grammar.diagnostic import AZeeError, Diagnostic, Related
@@ -44,9 +44,9 @@ def together(faults: Sequence[Fault]) -> Fault:
     return Fault(*(d for f in faults for d in f.diagnostics))
 
 
-def did_you_mean(name: str, known: Sequence[str], sigil: str = "") -> str | None:
+def did_you_mean(name: str, known: Iterable[str], sigil: str = "") -> str | None:
     """Return a help line with the nearest known names, or none where none is near."""
-    found = [f"`{sigil}{candidate}`" for candidate in nearest(name, known)]
+    found = [f"`{sigil}{candidate}`" for candidate in nearest(name, dict.fromkeys(known))]
     if not found:
         return None
     return f"did you mean {' or '.join(found)}?"

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
+from azee.lang.constants import CONSTANTS
 from azee.lang.fault import Fault, did_you_mean, fault
-from azee.lang.values import Kind, PointValue, SiteValue, Value
+from azee.lang.values import Kind, PointValue, SiteValue, SymbolValue, Value
 from azee_grammar.source import Span
 from azee_solver.constraint import Origin
 from azee_solver.geometry import SitePoint
@@ -66,15 +67,21 @@ class Operand:
             if isinstance(value, SiteValue) and Kind.POINT in kinds:
                 point = SitePoint(value.content)
                 return PointValue(point) if self.raw else point
+            if isinstance(value, SymbolValue) and value.content in CONSTANTS:
+                raise self.wrong_kind(
+                    value.kind, operator, role, span, f"did you mean `^{value.content}`?"
+                )
             raise self.wrong_kind(value.kind, operator, role, span)
         if self.words and value.content not in self.words:
             raise unknown_word(str(value.content), self.words, operator, span)
         return value if self.raw else value.content
 
-    def wrong_kind(self, kind: Kind, operator: str, role: str, span: Span) -> Fault:
+    def wrong_kind(
+        self, kind: Kind, operator: str, role: str, span: Span, hint: str | None = None
+    ) -> Fault:
         """Return the fault of an operand of another kind."""
         message = f"`{operator}` wants {self.wanted} as its {role}, not {kind.value}"
-        return fault("wrong-type", message, span, label=f"this is {kind.value}")
+        return fault("wrong-type", message, span, label=f"this is {kind.value}", help=hint)
 
     @property
     def wanted(self) -> str:

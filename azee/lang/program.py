@@ -96,24 +96,33 @@ class Program:
         return _tidy((*diagnostics, *audited), self.source)
 
     def evaluate(self, text: str, name: str = "<expression>") -> UtteranceScore:
-        """Evaluate one expression that sees the rules of the text.
+        """Evaluate one expression, which sees the rules of the text, to a score.
 
         Raises: AZeeError: all that is wrong with the expression, or with rules it reaches.
         """
-        source = Source(name, text)
+        expr, value = self._expression(Source(name, text))
+        if not isinstance(value, ScoreValue):
+            raise AZeeError(_not_a_score(value, expr))
+        problems = audit(value.content, Side.RIGHT, self._span_of, expr.span)
+        self._require_sound(_tidy(problems, expr.span.source))
+        return UtteranceScore(_label(expr), value.content, expr.span)
+
+    def value(self, text: str, name: str = "<expression>") -> Value:
+        """Evaluate one expression, which sees the rules of the text, to a value of any kind.
+
+        Raises: AZeeError: all that is wrong with the expression, or with rules it reaches.
+        """
+        return self._expression(Source(name, text))[1]
+
+    def _expression(self, source: Source) -> tuple[Expr, Value]:
         expr, diagnostics = parse_expression(source)
         found = list(diagnostics)
-        result = None
-        if expr is not None:
-            result = self._utterance(expr, found)
-            found += self._rule_diagnostics()
-        if result is not None and not found:
-            found += audit(result.score, Side.RIGHT, self._span_of, result.span)
-        tidy = _tidy(found, source)
-        self._require_sound(tidy)
-        if result is None:
-            raise AZeeError(*tidy)
-        return result
+        value = None if expr is None else self._value(expr, found)
+        found += self._rule_diagnostics()
+        self._require_sound(_tidy(found, source))
+        assert expr is not None
+        assert value is not None, "nothing was reported, so there is a value"
+        return expr, value
 
     @cached_property
     def _evaluated(self) -> tuple[tuple[UtteranceScore | None, ...], tuple[Diagnostic, ...]]:
@@ -141,17 +150,21 @@ class Program:
                 yield from rule.diagnostics
 
     def _utterance(self, expr: Expr, diagnostics: list[Diagnostic]) -> UtteranceScore | None:
+        value = self._value(expr, diagnostics)
+        if isinstance(value, ScoreValue):
+            return UtteranceScore(_label(expr), value.content, expr.span)
+        if value is not None:
+            diagnostics.append(_not_a_score(value, expr))
+        return None
+
+    def _value(self, expr: Expr, diagnostics: list[Diagnostic]) -> Value | None:
+        """Resolve and evaluate; None where something is wrong, which is then reported."""
         code = self.resolving.resolver(self.scope, None, diagnostics).resolve(expr, frozenset())
-        machine = Machine(self.limits)
         try:
-            value = code.evaluate(machine, {})
+            return code.evaluate(Machine(self.limits), {})
         except Fault as problem:
             diagnostics += problem.diagnostics
             return None
-        if isinstance(value, ScoreValue):
-            return UtteranceScore(_label(expr), value.content, expr.span)
-        diagnostics.append(_not_a_score(value, expr))
-        return None
 
     def _span_of(self, origin: Origin) -> Span | None:
         return self.resolving.spans.get(origin) or SHIPPED_RESOLVING.spans.get(origin)

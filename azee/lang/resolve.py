@@ -143,6 +143,8 @@ class Resolver:
         hint = did_you_mean(expr.name, (*sorted(visible), *CONSTANTS), "^")
         if hint is None and expr.name in NATIVES:
             hint = f"`{expr.name}` is an operator: write it without `^`"
+        if hint is None and self._defined(expr.name):
+            hint = f"`{expr.name}` is a rule: write `:{expr.name}`"
         message = f"nothing here is called `^{expr.name}`"
         return self.broken(expr.span, Diagnostic("unknown-name", message, expr.span, help=hint))
 

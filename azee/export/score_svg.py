@@ -19,11 +19,16 @@ from azee.score.score import Blank, Group, Hold, Score
 MARGIN = 28.0
 INSET = 2.5
 """How much narrower a box is than the box around it, so that edges of one instant stay apart."""
-CHARACTER = 6.6
-"""Mean width of a character at 12 px, a little on the wide side."""
+CHARACTER = 7.4
+NARROW, WIDE = 4.2, 9.4
+"""Widths of most characters, of narrow ones and of capitals at 12 px, in a wide font."""
 CAPTION = 26.0
+THINNEST = 4.0
+"""Width of a box that has no length."""
 NARROWEST, WIDEST = 110.0, 420.0
 """Pixels a second: as many as the names need, within these."""
+WIDEST_PICTURE = 1600.0
+"""Up to which the picture grows for the sake of names, in pixels."""
 NARROWEST_PICTURE = 560.0
 """What the legend needs, in pixels."""
 
@@ -75,7 +80,8 @@ def draw(score: Score) -> str:
     leaves_top = whole.top + whole.height + 2 * CAPTION
     leaf_boxes = flattened(score, top=leaves_top)
     bottom = max(box.top + box.height for box in leaf_boxes) + GAP
-    axis = _Axis(_scale([*whole.all(), *leaf_boxes]), score.duration)
+    axis = _Axis(_scale([*whole.all(), *leaf_boxes], score.duration), score.duration)
+    edges = MARGIN - INSET, axis.x(axis.end) + INSET
     width = max(axis.x(axis.end) + MARGIN, NARROWEST_PICTURE)
     height = bottom + 66.0
     size = f"{width:.0f} {height:.0f}"
@@ -86,10 +92,10 @@ def draw(score: Score) -> str:
         '<rect width="100%" height="100%" fill="#fff"/>',
         *_grid(axis, whole.top, bottom),
         _label("Score", MARGIN, 16, "caption"),
-        *(line for box in whole.all() for line in _box(box, axis)),
+        *_box(whole, axis, *edges),
         _label("Flattened", MARGIN, leaves_top - 26, "caption"),
         *_keyframes(boundaries(score), axis, leaves_top - 8, bottom),
-        *(line for box in leaf_boxes for line in _box(box, axis)),
+        *(line for box in leaf_boxes for line in _box(box, axis, *edges)),
         *_time_line(axis, bottom),
         *_legend(bottom + 50),
         "</svg>",
@@ -97,22 +103,24 @@ def draw(score: Score) -> str:
     return "\n".join(parts) + "\n"
 
 
-def _scale(boxes: Iterable[Box]) -> float:
+def _scale(boxes: Iterable[Box], duration: Fraction) -> float:
     """Pixels a second that let every name stand in its box, if that is not too many."""
     needed = [
         (_width(box.title) + 2 * INSET * (box.depth + 2)) / float(box.interval.duration)
         for box in boxes
         if box.interval.duration
     ]
-    return min(max([NARROWEST, *needed]), WIDEST)
+    most = min(WIDEST, WIDEST_PICTURE / float(duration)) if duration else WIDEST
+    return max(NARROWEST, min(max([0.0, *needed]), most))
 
 
-def _box(box: Box, axis: _Axis) -> Iterable[str]:
-    left = axis.x(box.interval.start) + INSET * box.depth
-    right = axis.x(box.interval.end) - INSET * box.depth
-    if right - left < 4:
-        middle = (axis.x(box.interval.start) + axis.x(box.interval.end)) / 2
-        left, right = middle - 2, middle + 2
+def _box(box: Box, axis: _Axis, low: float, high: float) -> Iterable[str]:
+    """Draw a box and what is inside, between the edges of the box around it."""
+    low, high = low + INSET, high - INSET
+    left, right = max(axis.x(box.interval.start), low), min(axis.x(box.interval.end), high)
+    if right - left < THINNEST:
+        left = min(max((left + right - THINNEST) / 2, low), high - THINNEST)
+        right = left + THINNEST
     kind, fill = _kind(box)
     yield f"<g><title>{_text(_tooltip(box))}</title>"
     yield (
@@ -121,10 +129,12 @@ def _box(box: Box, axis: _Axis) -> Iterable[str]:
     )
     baseline = box.top + (14.5 if isinstance(box.score, Group) else LEAF_HEIGHT / 2 + 4)
     if not box.interval.duration:
-        yield _label(box.title, right + 5, baseline)
+        yield _label(box.title, right + 4, baseline)
     elif name := _shortened(box.title, right - left - 8):
         yield _label(name, left + 5, baseline)
     yield "</g>"
+    for inner in box.inner:
+        yield from _box(inner, axis, left, right)
 
 
 def _kind(box: Box) -> tuple[str, str]:
@@ -151,7 +161,7 @@ def _keyframes(times: Sequence[Fraction], axis: _Axis, top: float, bottom: float
     for number, time in enumerate(times):
         x = axis.x(time)
         yield f'<line class="key" x1="{x:.1f}" y1="{top:.1f}" x2="{x:.1f}" y2="{bottom:.1f}"/>'
-        half = len(str(number)) * CHARACTER / 2 + 1
+        half = _width(str(number)) / 2
         if x - half >= free:
             yield _label(str(number), x, top - 3, "number")
             free = x + half
@@ -194,12 +204,16 @@ def _legend(y: float) -> Iterable[str]:
 def _shortened(text: str, room: float) -> str:
     if _width(text) <= room:
         return text
-    kept = int(room / CHARACTER) - 1
-    return f"{text[:kept].rstrip()}…" if kept >= 1 else ""
+    kept = len(text)
+    while kept and _width(text[:kept]) + CHARACTER > room:
+        kept -= 1
+    return f"{text[:kept].rstrip()}…" if kept else ""
 
 
 def _width(text: str) -> float:
-    return len(text) * CHARACTER
+    return sum(
+        WIDE if c.isupper() else NARROW if c in " .,:;'|!ijlt·()[]" else CHARACTER for c in text
+    )
 
 
 def _label(text: str, x: float, y: float, kind: str = "") -> str:

@@ -80,7 +80,7 @@ def test_items_stand_in_order_and_apart(text: str) -> None:
 
 @given(texts)
 def test_no_place_is_reported_twice(text: str) -> None:
-    found = [(d.code, d.span) for d in parse(Source("any.azee", text)).diagnostics]
+    found = [(d.code, d.message, d.span) for d in parse(Source("any.azee", text)).diagnostics]
     assert len(set(found)) == len(found)
 
 

@@ -92,6 +92,8 @@ def animate(
         np.clip(q, rig.coordinates.lower, rig.coordinates.upper, out=q)
         closing = rig.face_morphs.get(BLINK, {})
         weights += blinks(closing, units, bound.faces, frames, rng)
+    for unit, weight in rig.lid_weights(q).items():
+        weights[:, units.index(unit)] += weight
     moving = np.flatnonzero(np.any(weights != 0.0, axis=0))
     lead_s = float(lead)
     clip = Clip(

@@ -329,7 +329,7 @@ def test_a_trill_swings_as_often_and_as_far_as_it_says_and_fades() -> None:
     assert np.abs(swing[frame_at(animation, 1.0)]).max() < 1e-9
 
 
-def test_a_look_and_a_facial_morph_leave_the_arms_at_rest() -> None:
+def test_a_look_turns_eyes_and_lids_and_leaves_the_arms_at_rest() -> None:
     score = sync(
         block("GAZE", "0", "1", LookAt(FreePoint(-0.3, 0.1, 1.0))),
         block("FACE", "0", "1", Morph("AU1", None, 0.7)),
@@ -341,10 +341,15 @@ def test_a_look_and_a_facial_morph_leave_the_arms_at_rest() -> None:
     assert animation.clip.coordinates[:, arms] == pytest.approx(
         np.broadcast_to(idle, (len(animation.clip.times), len(arms)))
     )
-    middle = animation.clip.unit_weights[frame_at(animation, 0.5)]
-    share = rig().face_morphs["AU1"]
-    for unit, weight in zip(animation.clip.units, middle, strict=True):
-        assert weight == pytest.approx(0.7 * share.get(unit, 0.0))
+    middle = frame_at(animation, 0.5)
+    wanted = {unit: 0.7 * share for unit, share in rig().face_morphs["AU1"].items()}
+    for unit, weight in rig().lid_weights(animation.clip.coordinates[middle]).items():
+        wanted[unit] = wanted.get(unit, 0.0) + float(weight)
+    weights = animation.clip.unit_weights[middle]
+    for unit, weight in zip(animation.clip.units, weights, strict=True):
+        assert weight == pytest.approx(wanted.pop(unit, 0.0))
+    assert not any(wanted.values())
+    assert any("eyeLook" in unit for unit in animation.clip.units)
 
 
 def test_left_handers_sign_with_the_left() -> None:

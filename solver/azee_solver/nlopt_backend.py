@@ -25,6 +25,15 @@ MEMORY = 20
 """Steps that the quasi-Newton methods remember. NLopt's own choice, hundreds, costs more time than
 the objective and saves hardly any evaluations."""
 
+GIVES_UP = (
+    RuntimeError,
+    ValueError,
+    nlopt.RoundoffLimited,
+    getattr(nlopt, "exception", RuntimeError),
+)
+"""What NLopt raises when a descent ends early. Newer wheels have exceptions of their own, whose
+base is none of Python's."""
+
 UNDEFINED = 1e300
 """Stands for NaN, so that a line search backs off."""
 
@@ -66,7 +75,7 @@ def minimise(
         try:
             optimiser.optimize(first)
             gave_up = False
-        except (RuntimeError, ValueError, nlopt.RoundoffLimited):
+        except GIVES_UP:
             gave_up = best.value >= origin
         if not gave_up:
             break

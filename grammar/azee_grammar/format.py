@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from azee_grammar.diagnostic import AZeeError
 from azee_grammar.misspelt import looks_like_number
 from azee_grammar.parser import parse
-from azee_grammar.rows import rows
+from azee_grammar.rows import beside_head, fits_behind_symbol, fits_line, rows
 from azee_grammar.source import Source, Span
 from azee_grammar.syntax import (
     Application,
@@ -107,30 +107,52 @@ class _Printer:
         elif node.called:
             self._call(node, depth, prefix, span)
         else:
-            self._application(node, depth, prefix, span)
+            self._application(node, depth, lead, prefix)
 
-    def _application(self, node: Application, depth: int, prefix: str, span: Span) -> None:
-        if self._in_line(node):
-            flat = _flat(node, nested=bool(prefix))
-            if self._fits(depth, prefix + flat):
-                self.line(depth, prefix + flat, span)
+    def _application(self, node: Application, depth: int, lead: Symbol | None, prefix: str) -> None:
+        span = node.span if lead is None else lead.span.to(node.span)
+        operands = [operand for operand in node.operands if not isinstance(operand, Named)]
+        shape = fits_line(node) if lead is None else fits_behind_symbol(node)
+        if not operands or (shape and not self._published):
+            flat = prefix + _flat(node, nested=lead is not None)
+            if not operands or self._fits(depth, flat, node.span):
+                self.line(depth, flat, span)
                 return
-        head = Span(span.source, span.start, node.head.span.end)
-        self.line(depth, prefix + _head(node.head), head)
+        beside = self._beside(node, depth)
+        if beside:
+            # Behind a symbol they would be words of the symbol's row.
+            if lead is not None:
+                self.line(depth, _flat(lead), lead.span)
+            self.line(depth, *beside)
+            operands = operands[beside_head(node) :]
+        else:
+            self.line(
+                depth, prefix + _head(node.head), Span(span.source, span.start, node.head.span.end)
+            )
         if self._published:
-            for operand in node.operands:
-                assert not isinstance(operand, Named)
+            for operand in operands:
                 self.expression(operand, depth + 1)
             return
-        for row in rows(node):
+        for row in rows(node, operands):
             self._row(row, depth + 1)
+
+    def _beside(self, node: Application, depth: int) -> tuple[str, Span] | None:
+        """Return the head with the operands that stay on its line, if that is possible."""
+        count = 0 if self._published else beside_head(node)
+        if not count:
+            return None
+        words = [_bare(node.head), *node.operands[:count]]
+        span = node.head.span.to(words[-1].span)
+        text = _joined([_flat(word, nested=True) for word in words], words)
+        shape = all(map(fits_behind_symbol, words))
+        return (text, span) if shape and self._fits(depth, text, span) else None
 
     def _row(self, row: Sequence[Expr], depth: int) -> None:
         first = row[0]
-        span = first.span.to(row[-1].span)
-        if len(row) > 1 and not self._commented(span) and all(map(self._in_line, row)):
+        if len(row) > 1 and all(map(fits_behind_symbol, row)):
+            span = first.span.to(row[-1].span)
             flat = _joined([_flat(part, nested=True) for part in row], row)
-            if self._fits(depth, flat):
+            if self._fits(depth, flat, span):
                 self.line(depth, flat, span)
                 return
         if len(row) == 2 and isinstance(first, Symbol):
@@ -144,8 +166,7 @@ class _Printer:
     ) -> None:
         """Lay out a call, with `after` behind its parenthesis."""
         flat = f"{prefix}{_flat(node)}{after}"
-        whole = not self._commented(node.span) and self._fits(depth, flat)
-        if whole or not node.operands:
+        if not node.operands or self._fits(depth, flat, node.span):
             self.line(depth, flat, span)
             return
         opened = Span(span.source, span.start, node.head.span.end + 1)
@@ -165,24 +186,11 @@ class _Printer:
         else:
             self.line(depth, f"{prefix}{_flat(value)}{after}", node.span)
 
-    def _in_line(self, node: Expr | Named) -> bool:
-        """Whether a node may stand on one line: its operands are words, calls or bare heads."""
-        if self._published and isinstance(node, Application) and node.operands:
-            return False
-        if self._commented(node.span):
-            return False
-        if not isinstance(node, Application) or node.called:
-            return True
-        return all(
-            not isinstance(operand, Application) or operand.called or not operand.operands
-            for operand in node.operands
-        )
-
-    def _commented(self, span: Span) -> bool:
+    def _fits(self, depth: int, text: str, span: Span) -> bool:
+        """Whether a part of the text may become one line: not too wide, no comment inside."""
         at = bisect_left(self._comments, span.start)
-        return at < len(self._comments) and self._comments[at] < span.end
-
-    def _fits(self, depth: int, text: str) -> bool:
+        if at < len(self._comments) and self._comments[at] < span.end:
+            return False
         return len(INDENT) * depth + len(text) <= WIDTH
 
 
@@ -207,7 +215,7 @@ def _flat(node: Expr | Named, *, nested: bool = False) -> str:
             return f"{_head(head)}({', '.join([_flat(operand) for operand in operands])})"
         case Application(head=head, operands=operands):
             parts = [_head(head), *[_flat(operand, nested=True) for operand in operands]]
-            text = _joined(parts, [Application(head.span, head, (), called=False), *operands])
+            text = _joined(parts, [_bare(head), *operands])
             return f"({text})" if nested and operands else text
 
 
@@ -228,6 +236,10 @@ def _joined(parts: Sequence[str], nodes: Sequence[Expr | Named]) -> str:
         )
         text += f" ({parts[i]})" if open_name and parts[i][0].isalpha() else f" {parts[i]}"
     return text
+
+
+def _bare(head: Head) -> Application:
+    return Application(head.span, head, (), called=False)
 
 
 def _head(head: Head) -> str:

@@ -9,22 +9,78 @@ from azee_grammar.syntax import Application, Expr, Named, OperatorName, RuleName
 _PAIRED = frozenset({"azop", "let", "apply"})
 """Operators that take `'name value` pairs, as rules do; a last operand without name is a body."""
 
+_FRAMES = frozenset({"azop", "let", "sync"})
+"""Operators whose shape is easier to see in lines, however short they are."""
+
 _SYNC_RULES = {"start/end": 2, "start/dur": 2, "end/dur": 2, "start": 1, "end": 1, "with": 1}
 """Operands of each sync rule. Layout follows them; what they mean is settled elsewhere."""
 
 
-def rows(node: Application) -> Iterator[Sequence[Expr]]:
+def is_word(node: Expr | Named) -> bool:
+    """Whether a node is written without parentheses around it: a word, a bare head or a call."""
+    return not isinstance(node, Application) or node.called or not node.operands
+
+
+def fits_behind_symbol(node: Expr | Named) -> bool:
+    """Whether a node may stand behind a symbol on its line, in parentheses if it has operands.
+
+    An operator applied to words may. A rule applied to operands gets lines: what it says of what
+    is easier to see there.
+    """
+    if is_word(node):
+        return True
+    assert isinstance(node, Application)
+    if isinstance(node.head, RuleName) or _operator(node) in _FRAMES:
+        return False
+    return all(map(is_word, node.operands))
+
+
+def fits_line(node: Expr | Named) -> bool:
+    """Whether the shape of a node allows one line for all of it, if that is not too wide."""
+    if is_word(node):
+        return True
+    assert isinstance(node, Application)
+    operands = node.operands
+    return _operator(node) not in _FRAMES and all(
+        is_word(operand)
+        or (i > 0 and isinstance(operands[i - 1], Symbol) and fits_behind_symbol(operand))
+        for i, operand in enumerate(operands)
+    )
+
+
+def beside_head(node: Application) -> int:
+    """Count the operands that stay on the line of their head while the others get lines.
+
+    Those are all but the last, if they are words without symbols and the last has operands of its
+    own; and of a `let`, the name with its value.
+    """
+    operands = node.operands
+    if _operator(node) == "let":
+        return 2 if len(operands) == 3 and isinstance(operands[0], Symbol) else 0
+    if _operator(node) in _FRAMES or not operands:
+        return 0
+    *others, last = operands
+    if not isinstance(last, Application) or not last.operands:
+        return 0
+    if any(isinstance(operand, Symbol) or not is_word(operand) for operand in others):
+        return 0
+    return len(others)
+
+
+def rows(node: Application, operands: Sequence[Expr]) -> Iterator[Sequence[Expr]]:
     """Yield the operands of an application in prefix form, those of one line together.
 
     Only the last of a row may need further lines.
     """
-    operands = [operand for operand in node.operands if not isinstance(operand, Named)]
-    head = node.head
-    if isinstance(head, OperatorName) and head.name == "sync":
+    if _operator(node) == "sync":
         return _sync(operands)
-    if isinstance(head, RuleName) or (isinstance(head, OperatorName) and head.name in _PAIRED):
+    if isinstance(node.head, RuleName) or _operator(node) in _PAIRED:
         return _pairs(operands)
     return _runs(operands)
+
+
+def _operator(node: Application) -> str | None:
+    return node.head.name if isinstance(node.head, OperatorName) else None
 
 
 def _pairs(operands: Sequence[Expr]) -> Iterator[Sequence[Expr]]:
@@ -42,11 +98,11 @@ def _runs(operands: Sequence[Expr]) -> Iterator[Sequence[Expr]]:
     while at < len(operands):
         end = at + 1
         if isinstance(operands[at], Symbol):
-            while end < len(operands) and not _needs_lines(operands[end]):
+            while end < len(operands) and is_word(operands[end]):
                 if isinstance(operands[end], Symbol):
                     break
                 end += 1
-            if end == at + 1 and end < len(operands) and _needs_lines(operands[end]):
+            if end == at + 1 and end < len(operands) and not is_word(operands[end]):
                 end += 1
         yield operands[at:end]
         at = end
@@ -64,7 +120,3 @@ def _sync(operands: Sequence[Expr]) -> Iterator[Sequence[Expr]]:
                 size = 1 + _SYNC_RULES[first.name]
         yield operands[at : at + size]
         at += size
-
-
-def _needs_lines(node: Expr) -> bool:
-    return isinstance(node, Application) and not node.called and bool(node.operands)

@@ -119,7 +119,7 @@ def comments(parsed: Parsed) -> list[str]:
         ("list 1 !palm(s) ", ""),
         ("f(1, ", ")"),
         (":a 'x ", ""),
-        (":a\n    'x (:b ", " 1)"),
+        ("a\n    'x (b ", " 1)\n    (c (d e) 1)"),
         ("f('c = g 1 ", ")"),
         ("f(\n    g(1, ", "),\n    # it stays a line\n    2\n)"),
     ],

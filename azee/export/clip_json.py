@@ -50,8 +50,13 @@ def clip_document(clip: Clip, rig: Rig) -> dict[str, Any]:
             "axes": {"up": "+Y", "forward": "+Z", "left": "+X"},
         },
         "labels": [
-            {"text": x.text, "start_s": x.start_s, "end_s": x.end_s, "depth": x.depth}
-            for x in clip.labels
+            {
+                "text": label.text,
+                "path": list(label.path),
+                "start_s": label.start_s,
+                "end_s": label.end_s,
+            }
+            for label in clip.labels
         ],
         "skeleton": {
             "names": list(rig.skeleton.names),

@@ -26,5 +26,3 @@ def _lines(box: Box, first: str, rest: str) -> Iterator[str]:
         yield from _lines(
             child, rest + ("└─ " if last else "├─ "), rest + ("   " if last else "│  ")
         )
-
-

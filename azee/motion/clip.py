@@ -10,12 +10,24 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A named interval of a clip, such as a block of the score. Depth 0 is outermost."""
+    """A named interval of a clip, such as a block of the score.
 
-    text: str
+    path: names of the labels it stands in, outermost first, and its own, last.
+    """
+
+    path: tuple[str, ...]
     start_s: float
     end_s: float
-    depth: int = 0
+
+    @property
+    def text(self) -> str:
+        """Its own name."""
+        return self.path[-1]
+
+    @property
+    def depth(self) -> int:
+        """Number of labels it stands in."""
+        return len(self.path) - 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,19 +14,18 @@ def labels(score: Score, lead_s: float) -> tuple[Label, ...]:
 
     Args: lead_s: when the score's time line starts in the clip.
     """
-    found = _labels(score, Fraction(0), None, 0, lead_s)
+    found = _labels(score, Fraction(0), None, (), lead_s)
     return tuple(sorted(found, key=lambda label: (label.start_s, label.depth)))
 
 
 def _labels(
-    score: Score, start: Fraction, name: str | None, depth: int, lead_s: float
+    score: Score, start: Fraction, name: str | None, outer: tuple[str, ...], lead_s: float
 ) -> Iterator[Label]:
     text = score.calls[0].rule if score.calls else name
     if text is not None and not isinstance(score, Blank):
-        end = start + score.duration
-        yield Label(text, float(start) + lead_s, float(end) + lead_s, depth)
-        depth += 1
+        outer = (*outer, text)
+        yield Label(outer, float(start) + lead_s, float(start + score.duration) + lead_s)
     if isinstance(score, Group):
         for block in score.blocks:
             inner = start + block.interval_in_parent.start
-            yield from _labels(block.score, inner, block.name, depth, lead_s)
+            yield from _labels(block.score, inner, block.name, outer, lead_s)

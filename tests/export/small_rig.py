@@ -93,8 +93,8 @@ def tumbling() -> Clip:
         units=("blink", "smile"),
         unit_weights=np.stack([np.linspace(0, 1, frames), np.linspace(0, -0.5, frames)], axis=1),
         labels=(
-            Label("not-but", 0.0, 0.76),
-            Label("X", 0.0, 0.4, 1),
-            Label("Y & <Z>", 0.4, 0.76, 1),
+            Label(("not-but",), 0.0, 0.76),
+            Label(("not-but", "X"), 0.0, 0.4),
+            Label(("not-but", "Y & <Z>"), 0.4, 0.76),
         ),
     )

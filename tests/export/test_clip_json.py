@@ -63,7 +63,8 @@ def test_weights_labels_and_times_are_the_clips(document: dict[str, Any]) -> Non
     np.testing.assert_allclose(document["times"], clip.times, atol=1e-6)
     np.testing.assert_allclose(document["morphs"]["weights"], clip.unit_weights, atol=1e-6)
     assert document["morphs"]["names"] == ["blink", "smile"]
-    assert document["labels"][2] == {"text": "Y & <Z>", "start_s": 0.4, "end_s": 0.76, "depth": 1}
+    inner = {"text": "Y & <Z>", "path": ["not-but", "Y & <Z>"], "start_s": 0.4, "end_s": 0.76}
+    assert document["labels"][2] == inner
 
 
 def test_the_same_clip_gives_the_same_bytes(tmp_path: Path) -> None:

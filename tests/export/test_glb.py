@@ -36,7 +36,7 @@ def _signing(rig: Rig) -> Clip:
     frames = len(keys) * 8 - 8
     units = (rig.units[0], rig.units[-1])
     weights = np.stack([np.linspace(0, 1, frames), np.linspace(1, -0.4, frames)], axis=1)
-    label = Label("signing", 0.0, frames / 30)
+    label = Label(("signing",), 0.0, frames / 30)
     return Clip(np.arange(frames) / 30, np.vstack(rows), units, weights, (label,))
 
 
@@ -107,7 +107,7 @@ def test_only_what_moves_has_keys(small_file: Path) -> None:
 def test_labels_stand_in_the_extras_with_their_paths(small_file: Path) -> None:
     (animation,) = _json(small_file)["animations"]
     assert animation["name"] == "not-but"
-    first = {"text": "X", "depth": 1, "path": ["not-but", "X"], "start_s": 0.0, "end_s": 0.4}
+    first = {"text": "X", "path": ["not-but", "X"], "start_s": 0.0, "end_s": 0.4}
     assert animation["extras"]["labels"][1] == first
     assert animation["extras"]["labels"][2]["path"] == ["not-but", "Y & <Z>"]
 
@@ -154,6 +154,11 @@ def test_three_js_in_a_browser_sees_our_body(
     assert seen["triangles"] == len(rig.mesh.triangles)
     assert [part.name for part in rig.mesh.parts] == seen["materials"]
     assert all(tuple(names) == rig.mesh.units for names in seen["morphs"])
+    (animation,) = seen["animations"]
+    assert abs(animation["duration"] - clip.times[-1]) < 1e-5
+    assert [row["path"] for row in animation["extras"]["labels"]] == [
+        list(label.path) for label in clip.labels
+    ]
 
     for at, frame in zip(seen["at"], frames, strict=True):
         pose = rig.pose(clip.coordinates[frame])

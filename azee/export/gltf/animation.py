@@ -95,18 +95,13 @@ def _title(labels: Sequence[Label]) -> str:
 
 
 def _labels(labels: Sequence[Label], start_s: float) -> list[dict[str, Any]]:
-    """Every label with its path: the texts of the labels it stands in, its own last."""
-    stack: list[str] = []
-    rows = []
-    for label in labels:
-        stack[label.depth :] = [label.text]
-        rows.append(
-            {
-                "text": label.text,
-                "depth": label.depth,
-                "path": list(stack),
-                "start_s": round(label.start_s - start_s, 6),
-                "end_s": round(label.end_s - start_s, 6),
-            }
-        )
-    return rows
+    """Labels as extras, on the animation's time line."""
+    return [
+        {
+            "text": label.text,
+            "path": list(label.path),
+            "start_s": round(label.start_s - start_s, 6),
+            "end_s": round(label.end_s - start_s, 6),
+        }
+        for label in labels
+    ]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from azee.lang.arguments import Given, bound
 from azee.lang.code import Code, Names, gathered
 from azee.lang.fault import Fault, fault
-from azee.lang.machine import Machine, operator_value
+from azee.lang.machine import HEAVY, Machine, operator_value
 from azee.lang.procedure import Applicable
 from azee.lang.values import Kind, OperatorValue, Value
 from azee_grammar.source import Span
@@ -30,7 +30,7 @@ class RuleCall(Code):
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
         """Evaluate the arguments, then the rule's body in the scope of the rule."""
-        level = machine.enter(1 + len(self.arguments), self.span)
+        level = machine.enter(HEAVY + len(self.arguments), self.span)
         values = gathered(tuple(self.arguments.values()), machine, names)
         given = dict(zip(self.arguments, values, strict=True))
         result = machine.call(Applicable(self.rule.procedure, {}), given, self.span, self.origin)
@@ -71,7 +71,7 @@ class Apply(Code):
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
         """Evaluate operator and arguments, match them, apply."""
-        level = machine.enter(2 + len(self.arguments), self.span)
+        level = machine.enter(HEAVY + len(self.arguments), self.span)
         codes = (self.operator, *(a.value for a in self.arguments))
         operator, *values = gathered(codes, machine, names)
         if not isinstance(operator, OperatorValue):

@@ -7,9 +7,9 @@ is spent, and the names that are visible where it stands.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 from azee.lang.fault import Exhausted, Fault, together
 from azee.lang.machine import Machine
@@ -111,11 +111,10 @@ def gathered(codes: Sequence[Code], machine: Machine, names: Names) -> list[Valu
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NativeCall(Code):
-    """A native operator with its operands.
+    """A native operator with its operands, each matched with its declaration.
 
-    `operands` pairs each expression with the declaration it is matched to, in order of writing;
-    `rest_at` is the number of the first operand that belongs to the rest, or None. Options follow
-    the operands, named in `options`; `flags` holds those without a value.
+    Options follow the operands; `keywords` says which of `codes` they are and under which name
+    the function wants them, `settings` holds those that need no evaluation.
     """
 
     span: Span
@@ -126,11 +125,11 @@ class NativeCall(Code):
     roles: tuple[str, ...]
     """What messages call each operand."""
     rest_at: int | None
+    """The number of the first operand that belongs to the rest, if there is one."""
     keywords: Mapping[int, str]
-    """Which of `codes` are handed over by name, and under which."""
     settings: Mapping[str, object]
-    """Arguments that need no evaluation: flags that are set, and defaults."""
-    weight: int
+    build: Build | None
+    """Makes a value of what the function returns; None where that is the value already."""
 
     @property
     def kind(self) -> Kind | None:
@@ -139,21 +138,37 @@ class NativeCall(Code):
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
         """Evaluate the operands, match them with what is declared, apply the function."""
-        level = machine.enter(self.weight, self.span)
-        values = gathered(self.codes, machine, names)
-        positional, keywords = self._contents(values)
-        native = self.native
-        assert native.function is not None
-        if native.uses_machine:
-            result = native.function(self.at, machine, *positional, **keywords)
+        level = machine.enter(1 + len(self.codes), self.span)
+        values: list[Value] = []
+        contents: list[object] = []
+        fits = not self.keywords
+        for code, declaration in zip(self.codes, self.declarations, strict=True):
+            try:
+                value = code.evaluate(machine, names)
+            except Exhausted:
+                raise
+            except Fault as problem:
+                machine.depth = level + 1
+                rest = self.codes[len(values) + 1 :]
+                raise together((problem, *_faults(rest, machine, names))) from None
+            values.append(value)
+            if declaration.takes_as_is(value):
+                contents.append(value if declaration.raw else value.content)
+            else:
+                fits = False
+        keywords = self.settings
+        if not fits:
+            contents, keywords = self._contents(values)
+        if self.rest_at is not None:
+            contents[self.rest_at :] = [tuple(contents[self.rest_at :])]
+        function = self.native.function
+        assert function is not None
+        if self.native.uses_machine:
+            result = function(self.at, machine, *contents, **keywords)
         else:
-            result = native.function(self.at, *positional, **keywords)
+            result = function(self.at, *contents, **keywords)
         machine.depth = level
-        if native.whole:
-            value: Value = result
-            return value
-        assert native.result is not None
-        return built(native.result, result, values, machine, self.span)
+        return result if self.build is None else self.build(result, values, machine, self.span)
 
     def _contents(self, values: list[Value]) -> tuple[list[object], dict[str, object]]:
         contents: list[object] = []
@@ -172,37 +187,54 @@ class NativeCall(Code):
                 contents.append(content)
         if faults:
             raise together(faults)
-        if self.rest_at is not None:
-            contents[self.rest_at :] = [tuple(contents[self.rest_at :])]
         return contents, keywords
 
 
-_ATOMS: Mapping[Kind, Callable[[Any], Value]] = {
-    Kind.NUMBER: NumberValue,
-    Kind.SYMBOL: SymbolValue,
-    Kind.TEXT: TextValue,
-    Kind.SIDE: SideValue,
-    Kind.BOOLEAN: BooleanValue,
-}
-_COMPOUNDS: Mapping[Kind, Callable[[Any, int, int], Value]] = {
-    Kind.VECTOR: VectorValue,
-    Kind.POINT: PointValue,
-    Kind.PATH: PathValue,
-    Kind.LIST: ListValue,
-    Kind.CONSTRAINTS: ConstraintsValue,
-    Kind.SCORE: ScoreValue,
-}
+def _faults(codes: Sequence[Code], machine: Machine, names: Names) -> Iterator[Fault]:
+    """Evaluate expressions only for what is wrong with them."""
+    try:
+        gathered(codes, machine, names)
+    except Exhausted:
+        raise
+    except Fault as problem:
+        yield problem
 
 
-def built(kind: Kind, content: Any, parts: Sequence[Value], machine: Machine, span: Span) -> Value:
-    """Return the value of that kind, as large as its parts and one more."""
-    atom = _ATOMS.get(kind)
-    if atom is not None:
-        return atom(content)
-    size, depth = 1, 0
-    for part in parts:
-        size += part.size
-        depth = max(depth, part.depth)
-    machine.require_size(size, span)
-    machine.require_depth(depth + 1, span)
-    return _COMPOUNDS[kind](content, size, depth + 1)
+Build: TypeAlias = Callable[[Any, Sequence[Value], Machine, Span], Value]
+
+
+def _atom(make: Callable[[Any], Value]) -> Build:
+    def build(content: Any, parts: Sequence[Value], machine: Machine, span: Span) -> Value:
+        return make(content)
+
+    return build
+
+
+def _compound(make: Callable[[Any, int, int], Value]) -> Build:
+    def build(content: Any, parts: Sequence[Value], machine: Machine, span: Span) -> Value:
+        size, depth = 1, 0
+        for part in parts:
+            size += part.size
+            depth = max(depth, part.depth)
+        if size > machine.limits.size or depth >= machine.limits.depth:
+            machine.require_size(size, span)
+            machine.require_depth(depth + 1, span)
+        return make(content, size, depth + 1)
+
+    return build
+
+
+BUILDS: Mapping[Kind, Build] = {
+    Kind.NUMBER: _atom(NumberValue),
+    Kind.SYMBOL: _atom(SymbolValue),
+    Kind.TEXT: _atom(TextValue),
+    Kind.SIDE: _atom(SideValue),
+    Kind.BOOLEAN: _atom(BooleanValue),
+    Kind.VECTOR: _compound(VectorValue),
+    Kind.POINT: _compound(PointValue),
+    Kind.PATH: _compound(PathValue),
+    Kind.LIST: _compound(ListValue),
+    Kind.CONSTRAINTS: _compound(ConstraintsValue),
+    Kind.SCORE: _compound(ScoreValue),
+}
+"""How a value of each kind is made: a compound one is as large as its parts and one more."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from azee.lang.fault import Exhausted, Fault
 from azee.lang.procedure import Applicable, Procedure
 from azee.lang.values import OperatorValue, ScoreValue, Value
-from azee.score.score import Call
+from azee.score.score import Call, came_from
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.source import Span
 from azee_solver.constraint import Origin
@@ -21,12 +21,14 @@ class Limits:
     depth: int = 200
     """Expressions inside one another, bodies of called rules included; also of values."""
     steps: int = 1_000_000
-    """Expressions evaluated, and elements that list operators and scores visit."""
+    """Expressions evaluated and elements visited; applying a rule and laying out a block of a
+    score count as `HEAVY` steps each, since that is what they take."""
     size: int = 200_000
     """Parts of one value, counted as a tree: what is used twice counts twice."""
 
 
 DEFAULT_LIMITS = Limits()
+HEAVY = 5
 
 
 class Machine:
@@ -100,8 +102,8 @@ class Machine:
             self.depth = depth
             raise problem.through(operator.title, span) from None
         if procedure.rule is not None and isinstance(value, ScoreValue):
-            calls = (Call(procedure.rule, origin), *value.content.calls)
-            return replace(value, content=replace(value.content, calls=calls))
+            score = came_from(value.content, Call(procedure.rule, origin))
+            return ScoreValue(score, value.size, value.depth)
         return value
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from azee.lang.code import Broken, Code, Constant, NativeCall
+from azee.lang.code import BUILDS, Broken, Code, Constant, NativeCall
 from azee.lang.fault import Fault
 from azee.lang.native import Native, Occurrence, Operand, Option, role, unknown_word
 from azee.lang.values import Kind
@@ -55,6 +55,7 @@ def native_call(
         resolver.origin(expr.head.span),
         tuple((d.name, c.span) for d, c in zip(match.declarations, match.codes, strict=True)),
     )
+    result = native.result
     rest = next((i for i, o in enumerate(native.operands) if o.rest), None)
     call = NativeCall(
         expr.span,
@@ -66,7 +67,7 @@ def native_call(
         rest,
         match.keywords,
         match.settings,
-        1 + len(match.codes),
+        None if native.whole or result is None else BUILDS[result],
     )
     if any(isinstance(code, Broken) for code in match.codes):
         return Broken(expr.span)

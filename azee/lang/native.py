@@ -55,6 +55,10 @@ class Operand:
             return True
         return kind is Kind.SITE and Kind.POINT in self.kinds
 
+    def takes_as_is(self, value: Value) -> bool:
+        """Whether the value can stand here without a conversion or a closer look."""
+        return not self.words and (not self.kinds or value.kind in self.kinds)
+
     def content(self, value: Value, operator: str, role: str, span: Span) -> object:
         """Return what the operator's function is given for a value.
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from azee.lang.code import Broken, Code, Constant, Names, built, gathered
+from azee.lang.code import BUILDS, Broken, Code, Constant, Names, gathered
 from azee.lang.fault import Fault, did_you_mean, fault, together
-from azee.lang.machine import Machine
+from azee.lang.machine import HEAVY, Machine
 from azee.lang.values import Kind, NumberValue, ScoreValue, SymbolValue, Value
 from azee.score.bounds import Placement
 from azee.score.error import LayoutError
@@ -76,7 +76,7 @@ class Sync(Code):
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
         """Evaluate scores and operands, then lay the blocks out."""
-        level = machine.enter(1 + len(self.codes), self.span)
+        level = machine.enter(HEAVY * len(self.blocks), self.span)
         values = gathered(self.codes, machine, names)
         machine.depth = level
         remaining = iter(values)
@@ -98,7 +98,7 @@ class Sync(Code):
             group = synchronised(parts)
         except LayoutError as problem:
             raise self._fault(problem) from None
-        return built(Kind.SCORE, group, values, machine, self.span)
+        return BUILDS[Kind.SCORE](group, values, machine, self.span)
 
     def _fault(self, problem: LayoutError) -> Fault:
         """Point at the block at fault: at the ref or the hold that names what is not there."""
@@ -112,8 +112,15 @@ class Sync(Code):
             span = _where_named(block, missing) or block.score.span
             hint = did_you_mean(missing, problem.known, "'")
             if hint is None and problem.known:
-                hint = f"the blocks here are {', '.join(f'`{n}`' for n in problem.known)}"
+                hint = _listed(problem.known)
         return fault(problem.code, str(problem), span, help=hint)
+
+
+def _listed(names: Sequence[str]) -> str:
+    blocks = ", ".join(f"`{name}`" for name in names)
+    return (
+        f"the only block here is {blocks}" if len(names) == 1 else f"the blocks here are {blocks}"
+    )
 
 
 def _where_named(block: SyncBlock, name: str) -> Span | None:
@@ -360,7 +367,7 @@ def _static_rule(block: SyncBlock, names: set[str]) -> Sequence[Diagnostic]:
             message = f"there is no block `{bound.path[0]}`"
             hint = did_you_mean(bound.path[0], sorted(names), "'")
             if hint is None:
-                hint = f"the blocks here are {', '.join(f'`{n}`' for n in sorted(names))}"
+                hint = _listed(sorted(names))
             problems.append(Diagnostic("unknown-block", message, code.span, help=hint))
     return problems[:1] if block.rule.word == "with" else problems
 

@@ -110,9 +110,9 @@ def _require_holdable(parts: Sequence[Part]) -> None:
         while seen[-1] in holds:
             block = holds[seen[-1]]
             if block not in names:
-                raise LayoutError(
-                    "unknown-block", f"there is no block `{block}` to hold", i, tuple(sorted(names))
-                )
+                known = tuple(p.name for p in parts if p is not part)
+                message = f"there is no block `{block}` to hold"
+                raise LayoutError("unknown-block", message, i, known)
             if block in seen:
                 circle = " holds ".join(f"`{name}`" for name in (*seen, block))
                 raise LayoutError("cyclic-sync", f"blocks hold each other: {circle}", i)

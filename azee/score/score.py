@@ -94,6 +94,28 @@ class Group(_Score):
 Score: TypeAlias = Key | Hold | Blank | Group
 
 
+def came_from(score: Score, call: Call) -> Score:
+    """Return the score as the result of one more rule application, the outermost."""
+    duration, calls, fixed = score.duration, (call, *score.calls), score.fixed
+    match score:
+        case Key():
+            return Key(duration, calls=calls, fixed=fixed, constraints=score.constraints)
+        case Hold():
+            return Hold(
+                duration, calls=calls, fixed=fixed, block=score.block, channels=score.channels
+            )
+        case Blank():
+            return Blank(duration, calls=calls, fixed=fixed)
+        case Group():
+            return Group(
+                duration,
+                calls=calls,
+                fixed=fixed,
+                arrangement=score.arrangement,
+                blocks=score.blocks,
+            )
+
+
 @dataclass(frozen=True, slots=True)
 class Leaf:
     """A leaf of a nested score on the one time line of the whole."""

@@ -74,7 +74,7 @@ def _trill(
         message = "the side of a trill is that of its bone"
         raise at.fault("bad-side", message, "side", help="leave it out: the bone has one")
     if freq <= 0:
-        raise at.fault("number-range", "the frequency of a trill is greater than 0", "freq")
+        raise at.fault("number-range", "the frequency of a trill is greater than 0", "frequency")
     return (Trill(bone, axis, freq, math.radians(amp), origin=at.origin),)
 
 

@@ -8,7 +8,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
-from azee.lang.machine import Machine
+from azee.lang.machine import HEAVY, Machine
 from azee.lang.native import Group, Native, Occurrence, Operand, Option, unknown_word
 from azee.lang.synchrony import PATTERN, resolve_sync
 from azee.lang.values import Kind, ListValue, ScoreValue, SymbolValue, Value
@@ -77,7 +77,7 @@ def _fixed(at: Occurrence, score: Score) -> Score:
 
 
 def _seq(at: Occurrence, machine: Machine, values: tuple[Value, ...], *, gap: float) -> Score:
-    machine.spend(len(values), at.span)
+    machine.spend(HEAVY * len(values), at.span)
     scores: list[Score] = []
     for i, value in enumerate(values):
         if not isinstance(value, ScoreValue):

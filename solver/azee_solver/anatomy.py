@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from azee_rig.chain import Chain
 from azee_rig.coordinates import Coordinates
 
+Flags = NDArray[np.bool_]
+
 
 class Part(Enum):
     """Parts of the body that problems may move one after the other."""
@@ -49,21 +51,20 @@ def part_of(bone: str) -> Part:
 class Anatomy:
     """Structure of a chain, for asking what a constraint can depend on.
 
-    moves: (B, V), whether a coordinate changes the frame of a node.
+    paths: (B, B), whether the second node is the first or above it. owns: (B, V), whether a
+    coordinate turns a node against its parent. moves: (B, V), whether it changes its frame.
     """
 
     def __init__(self, chain: Chain, coordinates: Coordinates) -> None:
         self.names = coordinates.names
         count = len(chain.names)
-        self.moves: NDArray[np.bool_] = np.zeros((count, len(coordinates)), dtype=np.bool_)
-        self._own: list[frozenset[int]] = []
-        self._parents = chain.parents
+        self.paths: Flags = np.eye(count, dtype=np.bool_)
+        self.owns: Flags = np.zeros((count, len(coordinates)), dtype=np.bool_)
         for b, parent in enumerate(chain.parents):
-            own = chain.dof_coordinate[chain.dof_start[b] : chain.dof_start[b + 1]]
-            self._own.append(frozenset(int(v) for v in own))
+            self.owns[b, chain.dof_coordinate[chain.dof_start[b] : chain.dof_start[b + 1]]] = True
             if parent >= 0:
-                self.moves[b] = self.moves[parent]
-            self.moves[b, own] = True
+                self.paths[b] |= self.paths[parent]
+        self.moves: Flags = self.paths @ self.owns
         self.parts = tuple(part_of(name) for name in self.names)
         self._of = {p: frozenset(v for v, q in enumerate(self.parts) if q is p) for p in Part}
 
@@ -71,46 +72,41 @@ class Anatomy:
         """Coordinates of parts of the body."""
         return frozenset().union(*(self._of[part] for part in parts))
 
-    def moved_by(self, coordinates: Iterable[int]) -> NDArray[np.bool_]:
+    def moved_by(self, coordinates: Iterable[int]) -> Flags:
         """Tell for each node whether any of some coordinates moves it, (B,)."""
         return np.asarray(self.moves[:, sorted(coordinates)].any(axis=1), dtype=np.bool_)
 
     def above(self, node: int) -> frozenset[int]:
         """Coordinates that move a node."""
-        return frozenset(np.flatnonzero(self.moves[node]).tolist())
+        return _set(self.moves[node])
 
     def below(self, ancestor: int, node: int) -> frozenset[int]:
-        """Coordinates that move a node relative to one of its ancestors (or to itself: none)."""
-        found: set[int] = set()
-        while node != ancestor:
-            found |= self._own[node]
-            node = int(self._parents[node])
-        return frozenset(found)
+        """Coordinates that move a node relative to one of its ancestors, or to −1, the world."""
+        between = self.paths[node] & ~self.paths[ancestor] if ancestor >= 0 else self.paths[node]
+        return _set(between @ self.owns)
+
+    def relative(self, first: NDArray[np.int64], second: NDArray[np.int64]) -> Flags:
+        """Tell for pairs of nodes (P,) which coordinates move them against each other, (P, V)."""
+        return np.asarray((self.paths[first] ^ self.paths[second]) @ self.owns)
 
     def carried(self, node: int) -> frozenset[int]:
         """Coordinates of the joints beyond a node: they turn what it carries, not the node."""
-        return frozenset(
-            v
-            for n in range(node + 1, len(self._own))
-            if self.is_above(node, n)
-            for v in self._own[n]
-        )
+        beyond = self.paths[:, node].copy()
+        beyond[node] = False
+        return _set(beyond @ self.owns)
 
     def is_above(self, ancestor: int, node: int) -> bool:
         """Whether a node is an ancestor of another, or the same."""
-        while node > ancestor:
-            node = int(self._parents[node])
-        return node == ancestor
+        return bool(self.paths[node, ancestor])
 
     def common(self, nodes: Iterable[int]) -> int:
         """Deepest node above all the given ones, or −1."""
-        common: int | None = None
-        for node in nodes:
-            if common is None:
-                common = node
-            while common >= 0 and not self.is_above(common, node):
-                common = int(self._parents[common])
-        return -1 if common is None else common
+        shared = np.flatnonzero(np.logical_and.reduce([self.paths[n] for n in nodes]))
+        return int(shared[-1]) if len(shared) else -1
+
+
+def _set(flags: Flags) -> frozenset[int]:
+    return frozenset(np.flatnonzero(flags).tolist())
 
 
 @lru_cache(maxsize=16)

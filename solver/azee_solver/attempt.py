@@ -39,10 +39,10 @@ EYE_STIFFNESS, NECK_STIFFNESS = 0.1, 3.0
 EYE_COMFORT = 300.0
 """Keeps led eyes in the middle of their range, so that the head takes the rest."""
 
-AGREE = 0.02
-"""Descents whose costs differ by less than this part ended alike."""
-POLISH, POLISH_EASE = 5.0, 0.01
-"""Misses below so many tolerances are tried again with posture and comfort at this part."""
+GAIN = 0.8
+"""A descent has gained something if it brings overlap or cost below this part of the best."""
+POLISH, POLISH_EASE, POLISH_OVERLAP = 5.0, 0.01, 0.1
+"""Misses below so many tolerances are tried again with posture, comfort and overlap at a part."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -140,6 +140,13 @@ def _merit(result: Result, options: SolveOptions) -> tuple[int, float, float]:
     return len(result.missed()), excess, result.cost + excess**2
 
 
+def _gains(one: tuple[int, float, float], best: tuple[int, float, float]) -> bool:
+    """Whether a merit is so much better than the best that looking on may be worth it."""
+    return one[0] < best[0] or (
+        one[0] == best[0] and (one[1] < GAIN * best[1] or one[2] < GAIN * best[2])
+    )
+
+
 def _turns_head(constraint: Constraint, binding: Binding) -> bool:
     match constraint:
         case Place(site):
@@ -174,39 +181,42 @@ class _Attempt:
         self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, self.cost)
 
     def search(self, at_hand: Sequence[Array], thorough: bool) -> Result:
-        """Return the best end of descents, ending early when all is met or several agree."""
+        """Return the best end of descents: the first that meets all, or when no more is gained."""
         options = self.body.options
         best: Result | None = None
-        agreeing = 0
+        in_vain = 0
         tried: set[bytes] = set()
         for start in at_hand:
             if start.tobytes() in tried:
                 continue
             tried.add(start.tobytes())
             result = self._polished(self.descend(start))
-            agree = best is not None and abs(result.cost - best.cost) < AGREE * best.cost
-            agree = agree and (not thorough or result.overlap_m <= options.overlap_m)
-            agreeing = agreeing + 1 if agree else agreeing
-            if best is None or _merit(result, options) < _merit(best, options):
-                agreeing = agreeing if agree else 0
+            merit = _merit(result, options)
+            if not any(merit[:2]):
+                return result
+            gained = best is None or _gains(merit, _merit(best, options))
+            if best is None or merit < _merit(best, options):
                 best = result
-            if not any(_merit(best, options)[:2]) or agreeing >= options.agreeing_starts:
+            in_vain = 0 if gained else in_vain + 1
+            if in_vain >= options.patience * (2 if thorough else 1):
                 break
         assert best is not None
         return best
 
     def _polished(self, result: Result) -> Result:
-        """Descend once more without the price of an easy posture, if a small miss may be that."""
+        """Descend once more without the price of ease and distance, if a small miss may be that."""
         worst = max(result.ratios.values(), default=0.0)
         if not 1.0 < worst < POLISH:
             return result
         posture = self.program.section(kernels.POSTURE).reshape(-1, 5)
-        kept = posture.copy()
+        overlap = self.program.section(kernels.OVERLAP_WEIGHT)
+        kept, stiff = posture.copy(), overlap.copy()
+        overlap *= POLISH_OVERLAP
         easy = np.array([v not in self.body.presets for v in self.program.free])
         posture[easy, 1] *= POLISH_EASE
         posture[:, 4] *= POLISH_EASE
         closer = self.descend(result.q[self.program.free])
-        posture[:] = kept
+        posture[:], overlap[:] = kept, stiff
         return min(result, closer, key=lambda r: _merit(r, self.body.options))
 
     def descend(self, start: Array) -> Result:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations
 from typing import TYPE_CHECKING
 
@@ -22,11 +23,33 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-SLACK_M, CONTACT_SLACK_M = 0.002, 0.005
-"""Capsules only approach the skin, and skin gives way: so much more overlap is forgiven where a
-site is placed on a site, and where the text calls it a contact."""
-NEAR_M = 0.03
-"""Capsules nearer to a contact than this take part in it."""
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """Two sites that are meant to touch.
+
+    Capsules only approach the skin, and skin gives way: slack_m more overlap is forgiven there.
+    Capsules nearer to the sites than near_m take part in it. wide: also those of all bones beyond
+    the sites' own, such as the fingers of a palm.
+    """
+
+    first: Site
+    second: Site
+    slack_m: float = 0.002
+    near_m: float = 0.03
+    wide: bool = False
+
+    @staticmethod
+    def called(first: Site, second: Site, *, palms: tuple[bool, bool]) -> Contact:
+        """Return one that the text calls a contact.
+
+        A palm is hollow and soft: its edges stand out around what it touches. One that is laid on
+        something may lie there with all its fingers.
+
+        Args: palms: whether the sites are on palms.
+        """
+        slack_m = 0.009 if any(palms) else 0.004
+        return Contact(first, second, slack_m, near_m=0.12 if palms[0] else 0.03, wide=palms[0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,28 +73,14 @@ class Obstacles:
         self, binding: Binding, anatomy: Anatomy, constraints: Sequence[Constraint]
     ) -> None:
         self.binding, self.rig = binding, binding.rig
-        capsules = self.rig.capsules
-        self.pairs: NDArray[np.int64] = np.vstack([capsules.pairs, capsules.finger_pairs])
-        nodes = capsules.node[self.pairs]
-        self.radii: Array = capsules.radius[self.pairs].sum(axis=1)
-        self._relative: NDArray[np.bool_] = anatomy.moves[nodes[:, 0]] ^ anatomy.moves[nodes[:, 1]]
-        """(P, V) whether a coordinate moves one of the two, not both alike."""
-        self._let_fingers_touch(anatomy)
-        self._contacts = list(_contacts(constraints))
+        self.pairs, self.radii, self._relative = _pairs(self.rig, anatomy)
+        self._contacts = list(self._meant(constraints))
         self._near: dict[Site, NDArray[np.bool_]] = {}
         """(K,) capsules that may take part in a contact."""
-        for a, b, slack in self._contacts:
-            for site in (a, b):
-                near = self._around(site, anatomy, wide=slack == CONTACT_SLACK_M)
+        for contact in self._contacts:
+            for site in (contact.first, contact.second):
+                near = self._around(site, anatomy, wide=contact.wide)
                 self._near[site] = near | self._near.get(site, np.False_)
-
-    def _let_fingers_touch(self, anatomy: Anatomy) -> None:
-        """Fingers of one hand lie side by side when they are straight: no nearer than that."""
-        others = np.ones(len(self.rig.coordinates), dtype=np.bool_)
-        others[list(anatomy.of(Part.HAND))] = False
-        same = ~(self._relative & others).any(axis=1)
-        straight = self.rig.chain.frames(np.zeros(len(self.rig.coordinates)))
-        self.radii[same] = np.minimum(self.radii[same], self.distances(straight)[same])
 
     def for_problem(
         self, frames: Frames, free: Iterable[int], unsettled: Iterable[int]
@@ -91,23 +100,39 @@ class Obstacles:
         """Overlap that meant contacts make up, per chosen pair, (n,) metres."""
         pairs = self.pairs[chosen]
         allowed = np.zeros(len(pairs))
-        for a, b, slack in self._contacts:
-            if not (self._near[a][pairs] & self._near[b][pairs[:, ::-1]]).any():
+        for c in self._contacts:
+            if not (self._near[c.first][pairs] & self._near[c.second][pairs[:, ::-1]]).any():
                 continue
-            first, second = self._depth(a, frames), self._depth(b, frames)
+            first, second = self._depth(c.first, frames), self._depth(c.second, frames)
             for i, j in ((0, 1), (1, 0)):
                 out, other = first[pairs[:, i]], second[pairs[:, j]]
-                near = (out > -NEAR_M) & (other > -NEAR_M)
-                depth = np.maximum(out, 0.0) + np.maximum(other, 0.0) + slack
+                near = (out > -c.near_m) & (other > -c.near_m)
+                depth = np.maximum(out, 0.0) + np.maximum(other, 0.0) + c.slack_m
                 allowed = np.maximum(allowed, np.where(near, depth, 0.0))
         return allowed
+
+    def _meant(self, constraints: Sequence[Constraint]) -> Iterable[Contact]:
+        places = [c for c in constraints if isinstance(c, Place)]
+        for place in places:
+            if isinstance(place.point, SitePoint):
+                first, second = place.site, place.point.site
+                if place.contact:
+                    one, other = (
+                        self.binding.site(s).bone.startswith("palm") for s in (first, second)
+                    )
+                    yield Contact.called(first, second, palms=(one, other))
+                else:
+                    yield Contact(first, second)
+        for a, b in combinations(places, 2):
+            if a.point == b.point and a.distance_m == b.distance_m == 0.0:
+                yield Contact(a.site, b.site)
 
     def _around(self, site: Site, anatomy: Anatomy, *, wide: bool) -> NDArray[np.bool_]:
         """Capsules of a site's bone and of those before and after it; wide: of all beyond it."""
         node, parents = self.binding.site(site).node, self.rig.chain.parents
         on = self.rig.capsules.node
         near = (on == node) | (on == parents[node]) | (parents[on] == node)
-        if wide and part_of(self.binding.site(site).bone) in (Part.ARM, Part.HAND):
+        if wide and part_of(self.binding.site(site).bone) is Part.ARM:
             near |= np.array([anatomy.is_above(node, int(n)) for n in on])
         return np.asarray(near)
 
@@ -125,31 +150,39 @@ class Obstacles:
         """Pairs that overlap in a posture, deepest first."""
         names = self.rig.capsules.names
         every = np.ones(len(self.pairs), dtype=np.bool_)
-        excess = self.radii - self._allowance(frames, every) - self.distances(frames)
+        excess = (
+            self.radii - self._allowance(frames, every) - _distances(self.rig, self.pairs, frames)
+        )
         order = [int(n) for n in np.argsort(-excess, kind="stable") if excess[n] > 0]
         return tuple(
             Overlap(names[self.pairs[n, 0]], names[self.pairs[n, 1]], float(excess[n]))
             for n in order
         )
 
-    def distances(self, frames: Frames) -> Array:
-        """Distance of the axes of each pair in a posture, (P,) metres."""
-        count = range(len(self.rig.capsules.names))
-        ends = np.array([_ends(self.rig, frames, c) for c in count])
-        p, q = ends[self.pairs[:, 0]], ends[self.pairs[:, 1]]
-        return segment_distance(p[:, 0], p[:, 1], q[:, 0], q[:, 1])
+
+@lru_cache(maxsize=4)
+def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, NDArray[np.bool_]]:
+    """Pairs (P, 2), sums of radii (P,), and which coordinates change their distance (P, V).
+
+    Fingers of one hand lie side by side when they are straight: no pair asks for more than that.
+    """
+    capsules = rig.capsules
+    pairs = np.vstack([capsules.pairs, capsules.finger_pairs])
+    radii = capsules.radius[pairs].sum(axis=1)
+    relative = anatomy.relative(*capsules.node[pairs].T)
+    others = np.ones(len(rig.coordinates), dtype=np.bool_)
+    others[list(anatomy.of(Part.HAND))] = False
+    same_hand = ~(relative & others).any(axis=1)
+    straight = rig.chain.frames(np.zeros(len(rig.coordinates)))
+    radii[same_hand] = np.minimum(radii, _distances(rig, pairs, straight))[same_hand]
+    return pairs, radii, relative
 
 
-def _contacts(constraints: Sequence[Constraint]) -> Iterable[tuple[Site, Site, float]]:
-    """Sites that are meant to touch, with the overlap that is forgiven."""
-    places = [c for c in constraints if isinstance(c, Place)]
-    for place in places:
-        if isinstance(place.point, SitePoint):
-            slack = CONTACT_SLACK_M if place.contact else SLACK_M
-            yield place.site, place.point.site, slack
-    for one, other in combinations(places, 2):
-        if one.point == other.point and one.distance_m == other.distance_m == 0.0:
-            yield one.site, other.site, SLACK_M
+def _distances(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> Array:
+    """Distance of the axes of pairs of capsules in a posture, (P,) metres."""
+    ends = np.array([_ends(rig, frames, c) for c in range(len(rig.capsules.names))])
+    p, q = ends[pairs[:, 0]], ends[pairs[:, 1]]
+    return segment_distance(p[:, 0], p[:, 1], q[:, 0], q[:, 1])
 
 
 def _ends(rig: Rig, frames: Frames, c: int) -> tuple[Array, Array]:

@@ -16,9 +16,9 @@ class SolveOptions:
     posture: per squared radian away from the reference, times the coordinate's squared stiffness;
     comfort: per squared part of a half range beyond 80 % of it; overlap: per squared metre that
     two capsules overlap; overlap_m: what is tolerated of that. max_evaluations and
-    descent_tolerance end one descent. further_starts: of the Halton sequence. agreeing_starts:
-    as many descents in a row that end alike end the search. fixed: coordinates that must not
-    move from the start.
+    descent_tolerance end one descent. further_starts: of the Halton sequence. patience: so many
+    descents in a row that gain nothing end the search; twice as many if no wider problem can take
+    over. fixed: coordinates that must not move from the start.
     """
 
     tolerance: Tolerance = field(default_factory=lambda: Tolerance(1e-3, math.radians(0.5)))
@@ -29,5 +29,5 @@ class SolveOptions:
     max_evaluations: int = 600
     descent_tolerance: float = 1e-6
     further_starts: int = 6
-    agreeing_starts: int = 2
+    patience: int = 2
     fixed: frozenset[int] = frozenset()

@@ -34,7 +34,8 @@ class Reach(IntEnum):
     TRUNK = 2
     """Also the trunk; problems that it depends on are solved together with it."""
     ALL = 3
-    """Everything that changes its residuals, on the target's side too."""
+    """Everything that changes its residuals, on the target's side too, and an idle arm that would
+    be in the way of a leaning trunk."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +87,13 @@ class ProblemBuilder:
         presets = frozenset(self.binding.presets(constraints))
         turned = [i for i in self.footprints if self._role(i) is Orient]
         return presets.union(*(self.footprints[i].movers(self.anatomy) for i in turned))
+
+    @cached_property
+    def _idle_arms(self) -> frozenset[int]:
+        """Arm coordinates that no constraint can use: they yield when the trunk leans."""
+        used = frozenset().union(*(f.affected(self.anatomy) for f in self.footprints.values()))
+        presets = self.binding.presets(demand.constraint for demand in self.demands)
+        return self.anatomy.of(Part.ARM) - used - frozenset(presets)
 
     def build(self) -> tuple[Problem, ...]:
         """Return the problems in the order in which they would be solved one by one."""
@@ -151,7 +159,8 @@ class ProblemBuilder:
         if isinstance(constraint, Look | LookAt):
             return movers & self.anatomy.of(Part.EYES, Part.HEAD)
         if reach is Reach.ALL:
-            return affected | self._step(i, Reach.TRUNK)
+            step = affected | self._step(i, Reach.TRUNK)
+            return step | self._idle_arms if step & self.anatomy.of(Part.TRUNK) else step
         part = self._part(i)
         parts = {part}
         if part is Part.HAND:

@@ -34,6 +34,10 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+CLEARLY = 0.7
+"""Moving more of the body is worth it for misses below this part of the others."""
+DEEP = 2.0
+"""Overlaps beyond so many times what is tolerated are worth moving more of the body."""
 PULL = 0.1
 """With how much of a tolerance's force a constraint that has lost still pulls."""
 
@@ -207,7 +211,7 @@ class _Moment:
         """Let problems of groups that miss move more, where that can help; none if nothing can."""
         wider = list(reach)
         for group, result in zip(state.groups, state.results, strict=True):
-            in_the_way = result.overlap_m > self.options.overlap_m
+            in_the_way = result.overlap_m > DEEP * self.options.overlap_m
             missed = result.missed() - result.undefined
             if not missed and not in_the_way:
                 continue
@@ -237,16 +241,16 @@ class _Moment:
         a, b = self._misses(one), self._misses(other)
         if len(a) != len(b):
             return len(a) < len(b)
-        unit = self.options.tolerance.length_m
         places = [
             sum(r for i, r in m.items() if isinstance(self.constraints[i], Place)) for m in (a, b)
         ]
         if abs(places[0] - places[1]) > 1.0:
             return places[0] < places[1]
-        if sum(a.values()) != sum(b.values()):
-            return sum(a.values()) < 0.7 * sum(b.values())
-        depth = [sum(r.overlap_m for r in s.results) / unit for s in (one, other)]
-        return depth[0] < depth[1]
+        ratio = sum(a.values()) / sum(b.values()) if b else 1.0
+        if not CLEARLY < ratio < 1 / CLEARLY:
+            return ratio < 1
+        depth = [max(r.overlap_m for r in s.results) for s in (one, other)]
+        return depth[0] < depth[1] - self.options.overlap_m
 
     def _misses(self, state: _State) -> dict[int, float]:
         return {i: r.ratios[i] for r in state.results for i in r.missed() - r.undefined}

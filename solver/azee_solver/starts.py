@@ -7,7 +7,6 @@ with its solutions: where resting and random starts stuck inside the trunk, most
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +43,9 @@ def starts(
         if name in ARM_POSTURES["forward"] or name == "f_arm.pronation"
     ]
     if arms:
-        for posture, pronation in product(ARM_POSTURES.values(), PRONATIONS):
+        postures = tuple(ARM_POSTURES.values())
+        for k in range(9):
+            posture, pronation = postures[k % 3], PRONATIONS[(k + k // 3) % 3]
             x = np.array(coordinates.idle[free])
             for i, name in arms:
                 x[i] = np.radians(posture.get(name, pronation))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Literal
 
@@ -20,7 +20,7 @@ from azee.motion.labels import labels
 from azee.motion.limbs import Limbs
 from azee.motion.movement import Movement
 from azee.motion.plan import plan
-from azee.motion.posture import PostureSolver
+from azee.motion.posture import PostureSolver, Search
 from azee.motion.report import MotionReport, constraint_results, limit_excess
 from azee.motion.trill import laid_on, oscillation
 from azee.score.score import Score
@@ -28,6 +28,7 @@ from azee_rig.rig import Rig
 from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
+from azee_solver.options import SolveOptions
 from azee_solver.report import SolveReport
 from azee_solver.solve import solve
 
@@ -120,8 +121,20 @@ def animate(
 
 
 def _solver(rig: Rig, dominant: Side) -> PostureSolver:
-    def answer(demands: Sequence[Demand], *, start: Array, reference: Array) -> SolveReport:
-        return solve(rig, demands, dominant=dominant, start=start, reference=reference)
+    def answer(
+        demands: Sequence[Demand],
+        *,
+        start: Array,
+        reference: Array,
+        search: Search = Search.WIDE,
+        fixed: frozenset[int] = frozenset(),
+    ) -> SolveReport:
+        options = SolveOptions(fixed=fixed)
+        if search is Search.NEAR:
+            options = replace(options, further_starts=0, patience=0)
+        return solve(
+            rig, demands, dominant=dominant, start=start, reference=reference, options=options
+        )
 
     return answer
 

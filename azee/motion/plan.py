@@ -65,7 +65,11 @@ def plan(
         )
     )
     gauge = Gauge(evaluator, score, {}, first.giving_way)
-    work = _Work(Refinement(gauge, limbs, solver, holders), known, at, list(first.postures))
+    hopeless = frozenset(
+        c.demand.constraint for p in first.postures for c in p.report.constraints if not c.met
+    )
+    refinement = Refinement(gauge, limbs, solver, holders, hopeless)
+    work = _Work(refinement, known, at, list(first.postures))
     work.steer(later)
     work.follow(b for b in score.postures if b.dynamic)
     done = work.refinement.refined(work.postures, frame_times)

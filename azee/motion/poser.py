@@ -88,16 +88,10 @@ class Poser:
         named = [v for b in bounds for v in b.moves]
         start = reference.copy()
         start[named] = current[named]
-        return solved(
-            time,
-            bounds,
-            demands,
-            start,
-            reference,
-            origin,
-            passing,
-            limbs=self.limbs,
-            solver=self.solver,
+        report = self.solver(demands, start=start, reference=reference)
+        keyed = keyed_limbs(bounds, report.coordinates - reference, self.limbs)
+        return KeyPosture(
+            time, report.coordinates, keyed, passing, tuple(bounds), demands, report, origin
         )
 
     def accept(self, posture: KeyPosture) -> KeyPosture:
@@ -130,29 +124,16 @@ class Poser:
         return frozenset().union(*(b.limbs for b in going))
 
 
-def solved(
-    time: Fraction,
-    bounds: Sequence[Bound],
-    demands: tuple[Demand, ...],
-    start: Array,
-    reference: Array,
-    origin: Origin,
-    passing: frozenset[str],
-    *,
-    limbs: Limbs,
-    solver: PostureSolver,
-) -> KeyPosture:
-    """Solve demands from given postures and find the limbs that the answer is a key of.
+def keyed_limbs(bounds: Iterable[Bound], moved: Array, limbs: Limbs) -> frozenset[str]:
+    """Return the limbs that a solved posture is a key of.
 
     These are the limbs that the demands move or read, for a constraint holds only with them as
     the solver saw them, and any other that it moved (the head, levelled over a bent trunk).
+
+    Args: moved: (V,) how far the solver moved coordinates from where they would be without it.
     """
-    report = solver(demands, start=start, reference=reference)
-    moved = np.flatnonzero(np.abs(report.coordinates - reference) > MOVED_RAD)
-    keyed = limbs_asked(bounds) | limbs.touching(int(v) for v in moved)
-    return KeyPosture(
-        time, np.array(report.coordinates), keyed, passing, tuple(bounds), demands, report, origin
-    )
+    far = np.flatnonzero(np.abs(moved) > MOVED_RAD)
+    return limbs_asked(bounds) | limbs.touching(int(v) for v in far)
 
 
 def _nothing_new(demands: Iterable[Demand], last: KeyPosture) -> bool:

@@ -20,13 +20,31 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+class Search(Enum):
+    """How far a solver looks."""
+
+    WIDE = "wide"
+    """From several postures, for the best there is."""
+    NEAR = "near"
+    """From `start` alone: on the way of a movement the next posture must follow from the last."""
+
+
 class PostureSolver(Protocol):
     """Whatever turns the demands of one moment into a posture."""
 
-    def __call__(self, demands: Sequence[Demand], *, start: Array, reference: Array) -> SolveReport:
+    def __call__(
+        self,
+        demands: Sequence[Demand],
+        *,
+        start: Array,
+        reference: Array,
+        search: Search = Search.WIDE,
+        fixed: frozenset[int] = frozenset(),
+    ) -> SolveReport:
         """Return the posture nearest to `reference` that meets the demands, found from `start`.
 
-        Args: start, reference: (V,) coordinates inside the limits, radians.
+        Args: start, reference: (V,) coordinates inside the limits, radians. fixed: coordinates
+            that stay as in `start`.
         """
 
 

@@ -15,17 +15,21 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.motion.bound import Bound
 from azee.motion.gauge import Gauge, Instants, instants
 from azee.motion.keyframes import active
 from azee.motion.limbs import Limbs
 from azee.motion.movement import Movement, movement
-from azee.motion.poser import demands_of, solved
-from azee.motion.posture import KeyPosture, Origin, PostureSolver
+from azee.motion.poser import demands_of, keyed_limbs
+from azee.motion.posture import KeyPosture, Origin, PostureSolver, Search
 from azee.motion.spans import Spans
-from azee_rig.chain import Frames
+from azee_solver.constraint import Constraint
+from azee_solver.demand import Demand
+from azee_solver.report import SolveReport
 
 Array = NDArray[np.float64]
 
+TRUNK = "trunk"
 ROUNDS = 12
 MARGIN = 0.9
 """Share of the tolerance that an interpolated posture may use up before a key is added."""
@@ -55,6 +59,8 @@ class Refinement:
     solver: PostureSolver
     holders: Spans[frozenset[str]]
     """Limbs that something needs, by when."""
+    hopeless: frozenset[Constraint] = frozenset()
+    """Constraints that a key posture at a boundary could not meet."""
 
     def join(self, postures: Iterable[KeyPosture]) -> Movement:
         """Return the movement through key postures."""
@@ -79,21 +85,52 @@ class Refinement:
         every = frozenset(self.limbs.names)
         out = []
         for i, (time, q) in enumerate(zip(times, at.q, strict=True)):
+            one = at.only(slice(i, i + 1))
             bounds = active(self.gauge.score, time, self.gauge.giving_way)
             steering = self.gauge.steering(time)
-            one = Frames(at.frames.positions[i : i + 1], at.frames.rotations[i : i + 1])
-            targets = (c.target([time], one, self.gauge.evaluator)[0] for c in steering)
+            targets = (c.target([time], one.frames, self.gauge.evaluator)[0] for c in steering)
             paths = [c.demand(t) for c, t in zip(steering, targets, strict=True)]
-            asking = (*bounds, *(c.travel.bound for c in steering))
+            asking = [*bounds, *(c.travel.bound for c in steering)]
             demands = demands_of(bounds, time, paths)
+            report = self._beside_the_trunk(one, bounds, demands) or self._whole(demands, q)
+            keyed = keyed_limbs(asking, report.coordinates - q, self.limbs)
             through = every if passing is None else passing[i]
             out.append(
-                solved(
-                    time, asking, demands, q, q, origin, through,
-                    limbs=self.limbs, solver=self.solver,
+                KeyPosture(
+                    time, report.coordinates, keyed, through, tuple(asking),
+                    tuple(c.demand for c in report.constraints), report, origin,
                 )
             )  # fmt: skip
         return out
+
+    def _beside_the_trunk(
+        self, one: Instants, bounds: Sequence[Bound], demands: Sequence[Demand]
+    ) -> SolveReport | None:
+        """Leave the trunk to its own curve and solve the rest; none if that does not do.
+
+        The trunk links both arms: moved for one it would disturb the other's way.
+        """
+        own = frozenset(self.limbs.members.get(TRUNK, np.empty(0, dtype=np.int64)).tolist())
+        aside = [b for b in bounds if b.moves and b.moves <= own]
+        for b in aside:
+            if not float(self.gauge.residual(b, one)[0]) <= self.gauge.tolerance(b):
+                return None
+        left = {b.constraint for b in aside}
+        asked = [d for d in demands if d.constraint not in left]
+        report = self.solver(
+            asked, start=one.q[0], reference=one.q[0], search=Search.NEAR, fixed=own
+        )
+        return report if report.met else None
+
+    def _whole(self, demands: Sequence[Demand], q: Array) -> SolveReport:
+        """Solve with all of the body, near if that will do, else looking farther."""
+        near = self.solver(demands, start=q, reference=q, search=Search.NEAR)
+        lost = {c.demand.constraint for c in near.constraints if not c.met}
+        if lost <= self.hopeless:
+            return near
+        wide = self.solver(demands, start=q, reference=q)
+        missed = [sum(not c.met for c in r.constraints) for r in (near, wide)]
+        return wide if missed[1] < missed[0] else near
 
     def refined(self, postures: Iterable[KeyPosture], frame_times: Sequence[Fraction]) -> Refined:
         """Return key postures with those added that the frames need."""

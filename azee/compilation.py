@@ -129,15 +129,37 @@ def perform(
     Raises: AZeeError: the rig lacks what the score names.
     """
     from azee.motion.animate import animate
-    from azee_solver.binding import BindingError
 
-    try:
-        animation = animate(
-            score, rig, fps=fps, dominant=_side(dominant), mode=mode, seed=seed, life=life
-        )
-    except BindingError as error:
-        raise AZeeError(_unbound(error, rig)) from error
+    if missing := lacks(score, rig, dominant):
+        raise AZeeError(*missing)
+    animation = animate(
+        score, rig, fps=fps, dominant=_side(dominant), mode=mode, seed=seed, life=life
+    )
     return Compilation(score, rig, animation)
+
+
+def lacks(score: Score, rig: Rig, dominant: Hand = "right") -> tuple[Diagnostic, ...]:
+    """Return what a score names and a rig has not, each name once."""
+    from azee.score.score import Key, leaves
+    from azee_solver.binding import Binding, BindingError
+
+    binding = Binding(rig, _side(dominant))
+    found: dict[str, Diagnostic] = {}
+    for leaf in leaves(score):
+        for constraint in leaf.score.constraints if isinstance(leaf.score, Key) else ():
+            try:
+                binding.check(constraint)
+            except BindingError as error:
+                found.setdefault(error.name, _lacking(error, rig))
+    return tuple(found.values())
+
+
+def _lacking(error: BindingError, rig: Rig) -> Diagnostic:
+    kind = error.code.removeprefix("rig-lacks-")
+    place = error.origin
+    written = (f"written at {place.file}:{place.line}:{place.column}",) if place else ()
+    message = f"the rig `{rig.name}` has no {kind} `{error.name}`"
+    return Diagnostic(error.code, message, None, notes=written)
 
 
 def save_score(score: Score, path: str | Path) -> None:
@@ -188,14 +210,6 @@ def cannot_write(path: str | Path, error: OSError) -> Diagnostic:
         return Diagnostic("cannot-write", f"no permission to write `{path}`", None)
     reason = error.strerror or type(error).__name__
     return Diagnostic("cannot-write", f"cannot write `{path}`: {reason.lower()}", None)
-
-
-def _unbound(error: BindingError, rig: Rig) -> Diagnostic:
-    kind = error.code.removeprefix("rig-lacks-")
-    place = error.origin
-    written = (f"written at {place.file}:{place.line}:{place.column}",) if place else ()
-    message = f"the rig `{rig.name}` has no {kind} `{error.name}`"
-    return Diagnostic(error.code, message, None, notes=written)
 
 
 def _glb(made: Compilation, path: Path) -> None:

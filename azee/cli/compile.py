@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from azee.cli.body import load_body
 from azee.cli.console import DONE, MISSED, Progress, as_json, news, show, show_json, working
 from azee.cli.outcome import outcome
 from azee.cli.outputs import check_outputs, with_suffix
@@ -18,7 +19,6 @@ from azee.compilation import SUFFIXES, perform
 if TYPE_CHECKING:
     from azee.compilation import Hand
     from azee.motion.animate import Mode
-    from azee_rig.rig import Rig
 
 
 def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
@@ -99,7 +99,7 @@ def compile_(
     """
     quiet = quiet or form == "json"
     check_outputs([*outputs, *([report] if report else [])])
-    body = _rig(rig)
+    body = load_body(rig)
     text = Text.read(file, expression, utterance, libraries)
     score = text.score(dominant)
     with working("Solving …", quiet=quiet) as progress:
@@ -122,15 +122,6 @@ def compile_(
         show(text.warnings)
         news(outcome(made, [*outputs, *([report] if report else [])]), quiet=quiet)
     return MISSED if strict and not made.report.met else DONE
-
-
-def _rig(name: str) -> Rig:
-    from azee_rig.load import RigError, load_rig
-
-    try:
-        return load_rig(name)
-    except RigError as error:
-        raise click.BadParameter(str(error), param_hint="'--rig'") from error
 
 
 def _prepare(progress: Progress) -> None:

@@ -1,0 +1,91 @@
+"""`azee check` tells what is wrong, for people and for programs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import jsonschema
+import pytest
+from formats import schema
+
+from azee.cli.main import run
+
+FINE = "key 1 (look ^fwd)\n"
+FAULTY = "# a comment\nkey 1\n    cstr\n        place @CHIN_TIP ^Mssp\n        place @CH ^Nssp\n"
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_with_texts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("fine.azee").write_text(FINE, encoding="utf-8")
+    Path("faulty.azee").write_text(FAULTY, encoding="utf-8")
+
+
+def test_all_files_are_checked_and_counted(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "fine.azee", "faulty.azee", "missing.azee"]) == 1
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("error[") == 3
+    assert captured.err.endswith("3 files: 3 errors\n")
+
+
+def test_no_faults(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "fine.azee"]) == 0
+    assert capsys.readouterr().err == "1 file: no errors\n"
+    assert run(["check", "--quiet", "fine.azee"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_json_keeps_to_the_documented_schema(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "--format", "json", "faulty.azee", "missing.azee"]) == 1
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    document = json.loads(captured.out)
+    jsonschema.validate(document, schema("diagnostics"))
+    first, second, third = document["diagnostics"]
+    assert first["code"] == "unknown-site"
+    assert (first["line"], first["column"], first["end_line"], first["end_column"]) == (
+        4,
+        15,
+        4,
+        24,
+    )
+    assert second["code"] == "unknown-name"
+    assert (third["code"], third["line"]) == ("cannot-read", None)
+
+
+def test_json_without_faults(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "--format", "json", "fine.azee"]) == 0
+    assert json.loads(capsys.readouterr().out) == {"diagnostics": []}
+
+
+def test_a_text_is_bound_to_a_body_when_asked(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from dataclasses import replace
+
+    from azee_rig.load import load_rig
+
+    Path("touch.azee").write_text("key 1 (place @I_TIP(s) @CH)\n", encoding="utf-8")
+    assert run(["check", "--quiet", "--rig", "signer", "touch.azee"]) == 0
+    rig = load_rig()
+    chinless = replace(rig, sites={k: v for k, v in rig.sites.items() if k != "CH"})
+    monkeypatch.setattr("azee_rig.load.load_rig", lambda _: chinless)
+    assert run(["check", "--quiet", "--rig", "signer", "touch.azee"]) == 1
+    told = capsys.readouterr().err
+    assert "error[rig-lacks-site]: the rig `signer` has no site `CH`" in told
+    assert "note: written at touch.azee:1:8" in told
+
+
+def test_colours_only_where_somebody_looks(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(["check", "faulty.azee"])
+    assert "\x1b[" not in capsys.readouterr().err
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    run(["check", "faulty.azee"])
+    assert "\x1b[" in capsys.readouterr().err
+    monkeypatch.setenv("NO_COLOR", "1")
+    run(["check", "faulty.azee"])
+    assert "\x1b[" not in capsys.readouterr().err

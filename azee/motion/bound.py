@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from azee.motion.flatten import Timeline
-from azee.motion.limbs import Limbs, channel_of_constraint
+from azee.motion.limbs import Limbs, channel_of_constraint, limb_of_constraint
 from azee.motion.requirement import Requirement
 from azee.motion.spans import Spans
 from azee.motion.spline import minimum_jerk
@@ -24,8 +24,8 @@ from azee_solver.geometry import Between, Moving, Point, VTranslate, WorldPoint
 class Bound:
     """A requirement on one rig.
 
-    moves: coordinates that its residual depends on through the bone or site it speaks of.
-    reads: coordinates of the bones and sites that it reads. limbs, read_limbs: their limbs.
+    moves: coordinates with which the bone or site that it speaks of is moved. reads: the others
+    that its residual depends on. limbs, read_limbs: the limbs of either.
     dynamic: its target moves while it lasts.
     """
 
@@ -121,11 +121,17 @@ def _bind(requirement: Requirement, rig: Rig, binding: Binding, limbs: Limbs) ->
     if not isinstance(constraint, Morph):
         print_ = footprint(_alike(constraint), binding)
         moves, affected = print_.movers(body), print_.affected(body)
+        if limb_of_constraint(constraint, binding) in _HEAD:
+            moves &= frozenset(v for n in _HEAD for v in limbs.members.get(n, ()))
     elif binding.is_skeletal(constraint):
         moves = affected = frozenset(binding.preset(constraint))
     reads = affected - moves
     dynamic = isinstance(constraint, Place | LookAt) and has_moving(constraint.point)
     return Bound(requirement, moves, reads, limbs.touching(moves), limbs.touching(reads), dynamic)
+
+
+_HEAD = ("head", "eyes")
+"""Limbs that turn on the trunk without laying claim to it: a gaze does not keep a body bent."""
 
 
 def _alike(constraint: Constraint) -> Constraint:

@@ -69,7 +69,7 @@ def plan(
         c.demand.constraint for p in first.postures for c in p.report.constraints if not c.met
     )
     refinement = Refinement(gauge, limbs, solver, holders, hopeless)
-    work = _Work(refinement, known, at, list(first.postures))
+    work = _Work(refinement, known, at, list(first.postures), frame_times)
     work.steer(later)
     work.follow(b for b in score.postures if b.dynamic)
     done = work.refinement.refined(work.postures, frame_times)
@@ -84,6 +84,7 @@ class _Work:
     travels: tuple[Travel, ...]
     travels_at: Spans[Travel]
     postures: list[KeyPosture]
+    frame_times: Sequence[Fraction]
 
     def steer(self, later: Iterable[Fraction]) -> None:
         """Put sites on their paths.
@@ -106,7 +107,7 @@ class _Work:
         for path in self.refinement.gauge.courses.values():
             q = base.sample(np.array([float(path.travel.start)]))[0]
             samples.update(course_samples(path, evaluator.rig.chain.frames(q), evaluator))
-        self._add(self._apart(samples), base, Origin.PATH)
+        self._add(self._on_frames(samples), base, Origin.PATH)
 
     def follow(self, dynamic: Iterable[Bound]) -> None:
         """Follow points that move."""
@@ -116,7 +117,7 @@ class _Work:
         for b in dynamic:
             q = base.sample(np.array([float(b.requirement.motion.start)]))[0]
             samples.update(moving_samples(b, evaluator.rig.chain.frames(q), evaluator))
-        self._add(self._apart(samples), base, Origin.PATH)
+        self._add(self._on_frames(samples), base, Origin.PATH)
 
     def _steering(self, time: Fraction) -> list[Travel]:
         return [k for k in self.travels_at.at(time) if k.steers(time)]
@@ -146,12 +147,17 @@ class _Work:
         self.postures += self.refinement.solve(ordered, base, origin, passing)
         self.postures.sort(key=lambda p: p.time)
 
-    def _apart(self, samples: Iterable[Fraction]) -> list[Fraction]:
-        """Return samples that are not too close to keys or to each other."""
+    def _on_frames(self, samples: Iterable[Fraction]) -> list[Fraction]:
+        """Return the frames next to samples, but for those that are as good as keys already.
+
+        On the frames, samples are never so close to one that it cannot be corrected.
+        """
         taken = [p.time for p in self.postures]
-        out: list[Fraction] = []
-        for time in sorted(samples):
-            i = bisect_left(taken, time)
-            if all(abs(time - t) >= CLOSEST_S for t in (*taken[max(0, i - 1) : i + 1], *out[-1:])):
-                out.append(time)
-        return out
+        nearest = {nearest_in(self.frame_times, time) for time in samples}
+        return [t for t in sorted(nearest) if abs(t - nearest_in(taken, t)) >= CLOSEST_S]
+
+
+def nearest_in(ordered: Sequence[Fraction], time: Fraction) -> Fraction:
+    """Return the instant of an increasing sequence, not empty, that is nearest to another."""
+    i = bisect_left(ordered, time)
+    return min(ordered[max(0, i - 1) : i + 1], key=lambda t: abs(t - time))

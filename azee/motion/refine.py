@@ -35,7 +35,7 @@ MARGIN = 0.9
 """Share of the tolerance that an interpolated posture may use up before a key is added."""
 NO_WORSE = 1.1
 """Between keys that miss a constraint, it may be missed by this much more."""
-CLOSEST_S = 0.012
+CLOSEST_S = 0.005
 """Keys nearer than this to another would only shake."""
 NEIGHBOURS = 3
 """A key that is added bends the curve about as many keys away; those stretches are checked."""

@@ -1,0 +1,271 @@
+"""What a score requires of the body that ships, before anything is solved."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+
+from azee.motion.bound import Bound, BoundScore, bind
+from azee.motion.conflict import contradict
+from azee.motion.flatten import flatten
+from azee.motion.limbs import Limbs, channel_of_constraint
+from azee.motion.transpath import Travel, deferred, ends, passing_limbs, sample_times, travels
+from azee.motion.trill import oscillation
+from azee.score.interval import Interval
+from azee.score.score import Block, Group, Hold, Key
+from azee_rig.load import load_rig
+from azee_rig.rig import Rig
+from azee_solver.binding import BindingError
+from azee_solver.constraint import (
+    BoneAxis,
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+    Transpath,
+    Trill,
+)
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import (
+    Bone,
+    Dir,
+    Moving,
+    NamedPoint,
+    Side,
+    SigningSpace,
+    Site,
+    SitePoint,
+    Straight,
+    Vec,
+)
+
+F = Fraction
+S, W = Side.STRONG, Side.WEAK
+UP, FORWARD = Vec(0, 1, 0), Vec(0, 0, 1)
+MIDDLE, RIGHT = NamedPoint(SigningSpace.MSSP), NamedPoint(SigningSpace.RSSP)
+TIP = Site("I_TIP", S)
+PALM = Bone("palm", S)
+
+
+@cache
+def rig() -> Rig:
+    return load_rig()
+
+
+@cache
+def evaluator() -> Evaluator:
+    return Evaluator(rig(), Side.RIGHT)
+
+
+def bound(*blocks: Block) -> BoundScore:
+    score = Group(max(b.interval_in_parent.end for b in blocks), blocks=blocks)
+    return bind(flatten(score), rig(), evaluator().binding, Limbs.of(rig().coordinates))
+
+
+def block(name: str, start: str, length: str, *constraints: Constraint) -> Block:
+    span = Interval(F(start), F(start) + F(length))
+    return Block(name, span, Key(F(length), constraints=constraints))
+
+
+def one(constraint: Constraint) -> Bound:
+    return bound(block("ONE", "0", "1", constraint)).all[0]
+
+
+def test_every_coordinate_is_of_one_limb() -> None:
+    limbs = Limbs.of(rig().coordinates)
+    assert limbs.names == (
+        "trunk", "head", "eyes", "arm_L", "fingers_L", "arm_R", "fingers_R",
+    )  # fmt: skip
+    assert sum(len(m) for m in limbs.members.values()) == len(rig().coordinates)
+    assert limbs.touching([rig().coordinates.index["clav_L.elevation"]]) == {"arm_L"}
+
+
+def test_a_placement_claims_the_way_from_the_trunk_to_its_site() -> None:
+    assert one(Place(TIP, MIDDLE)).limbs == {"trunk", "arm_R", "fingers_R"}
+    assert one(Place(TIP, MIDDLE)).read_limbs == frozenset()
+
+
+def test_what_a_target_hangs_on_is_read() -> None:
+    forehead = one(Place(TIP, SitePoint(Site("FH"))))
+    assert forehead.limbs == {"arm_R", "fingers_R"}
+    assert forehead.read_limbs == {"head"}
+
+
+def test_a_gaze_reads_the_trunk_but_does_not_claim_it() -> None:
+    gaze = one(LookAt(MIDDLE))
+    assert gaze.limbs == {"eyes", "head"}
+    assert gaze.read_limbs == {"trunk"}
+
+
+def test_a_point_that_moves_is_dynamic_and_goes_by_minimum_jerk() -> None:
+    assert not one(Place(TIP, MIDDLE)).dynamic
+    moving = one(Place(TIP, Moving(Straight(), MIDDLE, RIGHT)))
+    assert moving.dynamic
+    assert [moving.phase(F(n, 2)) for n in range(3)] == [0, 0.5, 1]
+    assert moving.demand(F(1, 2)).phase == 0.5
+
+
+@pytest.mark.parametrize(
+    ("constraint", "channel"),
+    [
+        (Place(TIP, MIDDLE), "hands"),
+        (Morph("index_bend", S, 1.0), "hands"),
+        (Orient(BoneAxis.DIR, Bone("clav", W), Relation.ALONG, UP), "hands"),
+        (Rotate(Bone("head"), UP, 0.1), "head"),
+        (Look(FORWARD), "eyes"),
+        (Orient(BoneAxis.DIR, Bone("back_2"), Relation.ALONG, UP), "trunk"),
+        (Morph("spine_extended", None, 0.3), "trunk"),
+        (Morph("AU1", None, 1.0), "face"),
+    ],
+)
+def test_a_hold_keeps_a_constraint_if_it_names_its_channel(
+    constraint: Constraint, channel: str
+) -> None:
+    assert channel_of_constraint(constraint, evaluator().binding) == channel
+    for channels, kept in (((channel,), 1), (("nothing",), 0)):
+        hold = Block("H", Interval(F(1), F(2)), Hold(F(1), block="A", channels=channels))
+        held = bound(block("A", "0", "1", constraint), hold).all[1:]
+        assert len(held) == kept
+
+
+def test_a_name_that_the_rig_lacks_is_a_binding_error() -> None:
+    with pytest.raises(BindingError, match="rig-lacks-site"):
+        one(Place(Site("NOWHERE"), MIDDLE))
+    with pytest.raises(BindingError, match="rig-lacks-morph"):
+        one(Morph("AU999", None, 1.0))
+
+
+NRM_UP = Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "expected"),
+    [
+        (Place(TIP, MIDDLE), Place(TIP, RIGHT), True),
+        (Place(TIP, MIDDLE), Place(TIP, MIDDLE), False),
+        (Place(TIP, MIDDLE), Place(TIP, MIDDLE, distance_m=0.1), True),
+        (Place(TIP, MIDDLE), Place(Site("I_TIP", W), RIGHT), False),
+        (Place(TIP, MIDDLE), Place(Site("I_TIP", Side.RIGHT), RIGHT), True),
+        (NRM_UP, Orient(BoneAxis.NRM, PALM, Relation.ALONG, FORWARD), True),
+        (NRM_UP, Orient(BoneAxis.DIR, PALM, Relation.ALONG, FORWARD), False),
+        (NRM_UP, Orient(BoneAxis.NRM, PALM, Relation.ACROSS, FORWARD), False),
+        (Look(UP), LookAt(MIDDLE), True),
+        (Rotate(Bone("head"), UP, 0.1), Rotate(Bone("head"), UP, -0.1), True),
+        (Morph("index_bend", S, 1.0), Morph("index_bend", S, 0.2), True),
+        (Morph("index_bend", S, 1.0), Morph("middle_bend", S, 0.2), False),
+    ],
+)
+def test_contradictions_are_told_from_the_words(
+    first: Constraint, second: Constraint, expected: bool
+) -> None:
+    both = bound(block("A", "0", "1", first), block("B", "1", "1", second)).postures
+    assert contradict(both[:1], both[1:], evaluator().binding) == expected
+
+
+PATH = Transpath(TIP, Straight())
+
+
+def travel(*blocks: Block) -> Travel:
+    (found,) = travels(bound(*blocks), Side.RIGHT)
+    return found
+
+
+def test_a_path_leads_from_the_placement_before_to_the_one_after() -> None:
+    found = travel(
+        block("OTHER", "0", "2", Place(Site("I_TIP", W), MIDDLE)),
+        block("A", "0", ".5", Place(TIP, MIDDLE)),
+        block("P", ".5", "1", PATH),
+        block("B", "1.5", ".5", Place(TIP, RIGHT)),
+    )
+    assert found.before is not None
+    assert found.after is not None
+    assert [found.before.requirement.path, found.after.requirement.path] == [("A",), ("B",)]
+    assert (found.start, found.end) == (F(1, 2), F(3, 2))
+    assert [found.steers(t) for t in (F(1, 2), F(1), F(3, 2))] == [False, True, False]
+    assert found.progress(F(1)) == 0.5
+
+
+def test_a_placement_that_overlaps_a_path_holds_its_site_as_long_as_it_lasts() -> None:
+    found = travel(
+        block("A", "0", ".6", Place(TIP, MIDDLE)),
+        block("P", ".5", "1", PATH),
+        block("B", "1.4", ".6", Place(TIP, RIGHT)),
+    )
+    assert (found.start, found.end) == (F("0.6"), F("1.4"))
+    assert not found.steers(F("0.55"))
+
+
+def test_a_site_waits_where_placements_leave_a_gap_to_its_path() -> None:
+    found = travel(
+        block("A", "0", ".5", Place(TIP, MIDDLE)),
+        block("P", ".7", ".6", PATH),
+        block("B", "1.5", ".5", Place(TIP, RIGHT)),
+    )
+    assert (found.start, found.end) == (F("0.7"), F("1.3"))
+    assert found.between == Interval(F("0.5"), F("1.5"))
+    assert found.steers(F("0.7"))
+    assert found.progress(F("0.7")) == 0
+
+
+def test_keyframes_on_a_path_wait_for_its_ends() -> None:
+    score = bound(
+        block("A", "0", ".5", Place(TIP, MIDDLE)),
+        block("P", ".5", "1", PATH),
+        block("NOD", ".9", ".2", Rotate(Bone("head"), UP, 0.1)),
+        block("B", "1.5", ".5", Place(TIP, RIGHT)),
+    )
+    known = travels(score, Side.RIGHT)
+    assert ends(known) == {F("0.5"), F("1.5")}
+    assert deferred(known, (k.time for k in score.timeline.keyframes)) == {F("0.9"), F("1.1")}
+
+
+def test_what_follows_a_moving_hand_moves() -> None:
+    elbow_on_tip = Place(Site("I_TIP", W), SitePoint(Site("EL", S)))
+    score = bound(
+        block("A", "0", ".5", Place(TIP, MIDDLE)),
+        block("P", ".5", "1", PATH),
+        block("F", "0", "2", elbow_on_tip),
+        block("B", "1.5", ".5", Place(TIP, RIGHT)),
+    )
+    known = travels(score, Side.RIGHT)
+    followers = [b for b in score.postures if b.requirement.path == ("F",)]
+    assert {"arm_R", "arm_L", "fingers_L"} <= passing_limbs(F(1), followers, known)
+    assert passing_limbs(F(1, 2), followers, known) == frozenset()
+
+
+def test_paths_are_sampled_by_length_and_by_turns() -> None:
+    t = np.linspace(0, 1, 65)[:, None]
+    span = Interval(F(2), F(3))
+    short = sample_times(np.array([0.1, 0, 0]) * t, span)
+    long = sample_times(np.array([0.9, 0, 0]) * t, span)
+    small = 0.02 * np.hstack([np.cos(12 * t), np.sin(12 * t), 0 * t])
+    assert len(short) < 15 <= len(long) <= 16
+    assert len(sample_times(small, span)) > 12
+    assert all(2 < time < 3 for time in long)
+    assert sample_times(np.full((65, 3), np.nan), span) == []
+    assert sample_times(small, Interval(F(1), F(1))) == []
+
+
+@pytest.mark.parametrize("bone", ["palm", "f_arm", "head"])
+def test_a_trill_turns_its_bone_about_its_axis(bone: str) -> None:
+    side = None if bone == "head" else S
+    of = Bone(bone, side)
+    trill = one(Trill(of, Dir(of), 5.0, 0.1))
+    q = rig().coordinates.idle
+    swing = oscillation(trill, q, evaluator())
+    assert swing.reach > 0.9
+    node = evaluator().binding.bone(of).node
+    before, after = (rig().chain.frames(p).rotations[node] for p in (q, q + 0.01 * swing.direction))
+    turned = after @ before.T
+    angle = math.acos((np.trace(turned) - 1) / 2)
+    axis = np.array([turned[2, 1], turned[0, 2], turned[1, 0]]) - turned[[1, 2, 0], [2, 0, 1]]
+    assert angle == pytest.approx(0.01, rel=0.15)
+    assert axis / np.linalg.norm(axis) @ before[:, 1] > 0.95

@@ -95,6 +95,13 @@ class Anatomy:
         beyond[node] = False
         return _set(beyond @ self.owns)
 
+    def outwards(self, coordinates: frozenset[int]) -> int:
+        """Rank parts of the body for solving: trunk, head and eyes, then limbs from their tips."""
+        if not coordinates & self.of(Part.ARM, Part.HAND):
+            return -len(self.paths)
+        turned = self.owns[:, sorted(coordinates)].any(axis=1)
+        return -int(self.paths[turned].sum(axis=1).min())
+
     def is_above(self, ancestor: int, node: int) -> bool:
         """Whether a node is an ancestor of another, or the same."""
         return bool(self.paths[node, ancestor])

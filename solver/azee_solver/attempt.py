@@ -50,7 +50,8 @@ class Result:
     """A posture that a group of problems ended in.
 
     q: (V,). ratios: residual per demand, in tolerances. cost: sum of their squares. overlap_m: of
-    the capsules, deepest. undefined: demands whose target has no direction.
+    the capsules, deepest. undefined: demands whose target has no direction. eased: demands that
+    were given up in favour of others; they are not in the cost.
     """
 
     q: Array
@@ -58,10 +59,15 @@ class Result:
     cost: float
     overlap_m: float
     undefined: frozenset[int]
+    eased: frozenset[int] = frozenset()
 
     def missed(self) -> frozenset[int]:
         """Demands that are not met."""
         return frozenset(i for i, r in self.ratios.items() if not r <= 1.0) | self.undefined
+
+    def lost(self) -> frozenset[int]:
+        """Demands that are not met and should be: neither without direction nor given up."""
+        return self.missed() - self.undefined - self.eased
 
 
 @dataclass(slots=True)
@@ -137,7 +143,7 @@ def solve_group(
 def _merit(result: Result, options: SolveOptions) -> tuple[int, float, float]:
     """Return misses, then overlap beyond what is tolerated, then cost: the less the better."""
     excess = max(result.overlap_m - options.overlap_m, 0.0) / options.tolerance.length_m
-    return len(result.missed()), excess, result.cost + excess**2
+    return len(result.lost()), excess, result.cost + excess**2
 
 
 def _gains(one: tuple[int, float, float], best: tuple[int, float, float]) -> bool:
@@ -170,13 +176,14 @@ class _Attempt:
         ease: Mapping[int, float],
     ) -> None:
         self.body, self.demands, self.q = body, demands, q
+        self.ease = frozenset(ease)
         options = body.options
         moving = body.anatomy.moved_by(free)
         frames = body.frames(q)
         tape = Tape(body.evaluator, frames, moving)
         self.residuals: Residuals = lower(tape, demands, options.tolerance, ease)
         rows = [*self.residuals.rows, *self._level(tape, free)]
-        self.collisions = body.obstacles.for_problem(frames, free, unsettled - free)
+        self.collisions = body.obstacles.for_problem(free, unsettled - free)
         self.cost = self._cost(free)
         self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, self.cost)
 
@@ -205,7 +212,7 @@ class _Attempt:
 
     def _polished(self, result: Result) -> Result:
         """Descend once more without the price of ease and distance, if a small miss may be that."""
-        worst = max(result.ratios.values(), default=0.0)
+        worst = max((r for i, r in result.ratios.items() if i not in self.ease), default=0.0)
         if not 1.0 < worst < POLISH:
             return result
         posture = self.program.section(kernels.POSTURE).reshape(-1, 5)
@@ -243,9 +250,10 @@ class _Attempt:
         return Result(
             q,
             ratios,
-            sum(r * r for r in ratios.values()),
+            sum(r * r for i, r in ratios.items() if i not in self.ease),
             self._deepest_overlap(),
             self.residuals.undefined,
+            self.ease,
         )
 
     def _deepest_overlap(self) -> float:

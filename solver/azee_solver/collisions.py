@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.chain import Frames
-from azee_solver.anatomy import Anatomy, Part, part_of
+from azee_solver.anatomy import Anatomy, Part
 from azee_solver.binding import Binding
 from azee_solver.constraint import Constraint, Place
 from azee_solver.geometry import Site, SitePoint
@@ -24,32 +24,21 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
+NEAR_M = 0.014
+"""Capsules of the bones before and after a site take part in its contacts if so near to it."""
+SLACK_M, CALLED_SLACK_M, PALM_SLACK_M = 0.002, 0.004, 0.009
+"""Overlap that is forgiven where a site is placed on a site; where the text calls that a contact;
+and where one of them is a palm, which is hollow and soft: its edges stand out around what it
+touches."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Contact:
-    """Two sites that are meant to touch.
+    """Two sites that are meant to touch: capsules around each (K,), and the overlap allowed."""
 
-    Capsules only approach the skin, and skin gives way: slack_m more overlap is forgiven there.
-    Capsules nearer to the sites than near_m take part in it. wide: also those of all bones beyond
-    the sites' own, such as the fingers of a palm.
-    """
-
-    first: Site
-    second: Site
-    slack_m: float = 0.002
-    near_m: float = 0.03
-    wide: bool = False
-
-    @staticmethod
-    def called(first: Site, second: Site, *, palms: tuple[bool, bool]) -> Contact:
-        """Return one that the text calls a contact.
-
-        A palm is hollow and soft: its edges stand out around what it touches. One that is laid on
-        something may lie there with all its fingers.
-
-        Args: palms: whether the sites are on palms.
-        """
-        slack_m = 0.009 if any(palms) else 0.004
-        return Contact(first, second, slack_m, near_m=0.12 if palms[0] else 0.03, wide=palms[0])
+    first: NDArray[np.bool_]
+    second: NDArray[np.bool_]
+    allowed_m: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,100 +53,97 @@ class Overlap:
 class Obstacles:
     """All pairs of capsules that must not overlap, for the constraints of one moment.
 
-    pairs: (P, 2). Placing a site on a site means contact there. Where a capsule stands out beyond
-    the skin at the contact, as much overlap is allowed with all that lies around it; on the whole
-    hand, where the text calls it a contact.
+    pairs: (P, 2). reach: (P,) how near their axes may come. Placing a site on a site means contact
+    there: as far as the capsules stand out beyond the skin at the two sites, those around them may
+    overlap.
     """
 
     def __init__(
         self, binding: Binding, anatomy: Anatomy, constraints: Sequence[Constraint]
     ) -> None:
         self.binding, self.rig = binding, binding.rig
-        self.pairs, self.radii, self._relative = _pairs(self.rig, anatomy)
-        self._contacts = list(self._meant(constraints))
-        self._near: dict[Site, NDArray[np.bool_]] = {}
-        """(K,) capsules that may take part in a contact."""
-        for contact in self._contacts:
-            for site in (contact.first, contact.second):
-                near = self._around(site, anatomy, wide=contact.wide)
-                self._near[site] = near | self._near.get(site, np.False_)
+        self.pairs, radii, self._relative = _pairs(self.rig, anatomy)
+        self.reach: Array = radii - self._allowance(self._meant(constraints, anatomy))
+        self._nodes = self.rig.capsules.node[self.pairs]
+        self._moves = anatomy.moves
 
-    def for_problem(
-        self, frames: Frames, free: Iterable[int], unsettled: Iterable[int]
-    ) -> Collisions:
+    def for_problem(self, free: Iterable[int], unsettled: Iterable[int]) -> Collisions:
         """Pairs whose distance the free coordinates change.
 
-        Args: frames: the posture at hand, one. unsettled: coordinates that a later problem will
-            move: what they carry is not yet in the way.
+        Args: unsettled: coordinates that a later problem will move: what only they carry is not
+            yet in the way.
         """
         mine, later = list(free), list(unsettled)
-        chosen: NDArray[np.bool_] = np.logical_and(
-            self._relative[:, mine].any(axis=1), ~self._relative[:, later].any(axis=1)
-        )
-        return Collisions(self.pairs[chosen], self.radii[chosen] - self._allowance(frames, chosen))
+        moved = np.logical_or.reduce(self._moves[:, mine], axis=1)
+        will = np.logical_or.reduce(self._moves[:, later], axis=1)
+        absent = np.logical_and(will, ~moved)[self._nodes]
+        changed = np.logical_or.reduce(self._relative[:, mine], axis=1)
+        chosen = np.logical_and(changed, ~np.logical_or.reduce(absent, axis=1))
+        return Collisions(self.pairs[chosen], self.reach[chosen])
 
-    def _allowance(self, frames: Frames, chosen: NDArray[np.bool_]) -> Array:
-        """Overlap that meant contacts make up, per chosen pair, (n,) metres."""
-        pairs = self.pairs[chosen]
-        allowed = np.zeros(len(pairs))
-        for c in self._contacts:
-            if not (self._near[c.first][pairs] & self._near[c.second][pairs[:, ::-1]]).any():
-                continue
-            first, second = self._depth(c.first, frames), self._depth(c.second, frames)
-            for i, j in ((0, 1), (1, 0)):
-                out, other = first[pairs[:, i]], second[pairs[:, j]]
-                near = (out > -c.near_m) & (other > -c.near_m)
-                depth = np.maximum(out, 0.0) + np.maximum(other, 0.0) + c.slack_m
-                allowed = np.maximum(allowed, np.where(near, depth, 0.0))
+    def _allowance(self, contacts: Iterable[Contact]) -> Array:
+        """Overlap that meant contacts make up, per pair, (P,) metres."""
+        i, j = self.pairs.T
+        allowed = np.zeros(len(self.pairs))
+        for contact in contacts:
+            taking_part = (contact.first[i] & contact.second[j]) | (
+                contact.first[j] & contact.second[i]
+            )
+            allowed = np.maximum(allowed, np.where(taking_part, contact.allowed_m, 0.0))
         return allowed
 
-    def _meant(self, constraints: Sequence[Constraint]) -> Iterable[Contact]:
+    def _meant(self, constraints: Sequence[Constraint], anatomy: Anatomy) -> Iterable[Contact]:
         places = [c for c in constraints if isinstance(c, Place)]
         for place in places:
             if isinstance(place.point, SitePoint):
-                first, second = place.site, place.point.site
-                if place.contact:
-                    one, other = (
-                        self.binding.site(s).bone.startswith("palm") for s in (first, second)
-                    )
-                    yield Contact.called(first, second, palms=(one, other))
-                else:
-                    yield Contact(first, second)
+                yield self._contact(place.site, place.point.site, anatomy, called=place.contact)
         for a, b in combinations(places, 2):
             if a.point == b.point and a.distance_m == b.distance_m == 0.0:
-                yield Contact(a.site, b.site)
+                yield self._contact(a.site, b.site, anatomy, called=False)
 
-    def _around(self, site: Site, anatomy: Anatomy, *, wide: bool) -> NDArray[np.bool_]:
-        """Capsules of a site's bone and of those before and after it; wide: of all beyond it."""
-        node, parents = self.binding.site(site).node, self.rig.chain.parents
-        on = self.rig.capsules.node
-        near = (on == node) | (on == parents[node]) | (parents[on] == node)
-        if wide and part_of(self.binding.site(site).bone) is Part.ARM:
-            near |= np.array([anatomy.is_above(node, int(n)) for n in on])
-        return np.asarray(near)
-
-    def _depth(self, site: Site, frames: Frames) -> Array:
-        """How deep a site lies in each capsule of its bone or the next ones, (K,); else −∞."""
-        bound, capsules = self.binding.site(site), self.rig.capsules
-        depth = np.full(len(capsules.node), -np.inf)
-        point = frames.positions[bound.node] + frames.rotations[bound.node] @ bound.position
-        for c in np.flatnonzero(self._near[site]):
-            a, b = _ends(self.rig, frames, int(c))
-            depth[c] = capsules.radius[c] - _to_segment(point, a, b)
-        return depth
+    def _contact(self, one: Site, other: Site, anatomy: Anatomy, *, called: bool) -> Contact:
+        sites = self.binding.site(one), self.binding.site(other)
+        palm = called and any(site.bone.startswith("palm") for site in sites)
+        slack = PALM_SLACK_M if palm else CALLED_SLACK_M if called else SLACK_M
+        around, standing_out = [], 0.0
+        for site in sites:
+            near, depth = _around(self.rig, site.name, anatomy)
+            if palm and site.bone.startswith("palm"):
+                near = near | anatomy.paths[self.rig.capsules.node, site.node]
+            around.append(near)
+            standing_out += depth
+        return Contact(around[0], around[1], standing_out + slack)
 
     def overlaps(self, frames: Frames) -> tuple[Overlap, ...]:
         """Pairs that overlap in a posture, deepest first."""
         names = self.rig.capsules.names
-        every = np.ones(len(self.pairs), dtype=np.bool_)
-        excess = (
-            self.radii - self._allowance(frames, every) - _distances(self.rig, self.pairs, frames)
-        )
+        excess = self.reach - _distances(self.rig, self.pairs, frames)
         order = [int(n) for n in np.argsort(-excess, kind="stable") if excess[n] > 0]
         return tuple(
             Overlap(names[self.pairs[n, 0]], names[self.pairs[n, 1]], float(excess[n]))
             for n in order
         )
+
+
+@lru_cache(maxsize=256)
+def _around(rig: Rig, name: str, anatomy: Anatomy) -> tuple[NDArray[np.bool_], float]:
+    """Capsules around a site, (K,), and how far they stand out beyond the skin there, metres.
+
+    Taken at the zero pose: capsules of the site's own bone, and near ones of its neighbours.
+    """
+    site, capsules, parents = rig.sites[name], rig.capsules, rig.chain.parents
+    frames = rig.chain.frames(np.zeros(len(rig.coordinates)))
+    point = frames.positions[site.node] + frames.rotations[site.node] @ site.position
+    depth = np.array(
+        [
+            radius - _to_segment(point, *_ends(rig, frames, c))
+            for c, radius in enumerate(capsules.radius)
+        ]
+    )
+    own = capsules.node == site.node
+    beside = (capsules.node == parents[site.node]) | (parents[capsules.node] == site.node)
+    near = own | (beside & (depth > -NEAR_M))
+    return near, max(0.0, float(depth[near].max(initial=0.0)))
 
 
 @lru_cache(maxsize=4)

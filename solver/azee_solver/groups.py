@@ -36,8 +36,9 @@ def grouped(
 ) -> list[Group]:
     """Return the groups in the order in which they are to be solved.
 
-    Coordinates that only the fingers' problems move come first, because the arms' keep the
-    fingers out of the body. A head that nothing else turns is levelled wherever the trunk moves.
+    Where dependencies leave a choice, trunk and head come first, then hands before arms, so that
+    the arms keep the hands, as they will be, out of the body. A head that nothing else turns is
+    levelled wherever the trunk moves.
 
     Args: fixed: coordinates that nothing may move.
     """
@@ -59,9 +60,9 @@ def grouped(
     sets = together.sets()
     moved = [frozenset().union(*(free[i] for i in s)) for s in sets]
     read = [frozenset().union(*(problems[i].reads for i in s)) for s in sets]
-    hand = anatomy.of(Part.HAND)
     keys = [
-        (not m <= hand, min(problems[i].order for i in s)) for s, m in zip(sets, moved, strict=True)
+        (anatomy.outwards(m), min(problems[i].order for i in members))
+        for members, m in zip(sets, moved, strict=True)
     ]
     entries = ordered(
         len(sets),

@@ -18,7 +18,8 @@ class SolveOptions:
     two capsules overlap; overlap_m: what is tolerated of that. max_evaluations and
     descent_tolerance end one descent. further_starts: of the Halton sequence. patience: so many
     descents in a row that gain nothing end the search; twice as many if no wider problem can take
-    over. fixed: coordinates that must not move from the start.
+    over. explain: find out why what misses misses, by
+    solving smaller problems. fixed: coordinates that must not move from the start.
     """
 
     tolerance: Tolerance = field(default_factory=lambda: Tolerance(1e-3, math.radians(0.5)))
@@ -30,4 +31,5 @@ class SolveOptions:
     descent_tolerance: float = 1e-6
     further_starts: int = 6
     patience: int = 2
+    explain: bool = True
     fixed: frozenset[int] = frozenset()

@@ -187,19 +187,19 @@ class _Moment:
                 group.free,
                 unsettled=unsettled,
                 ease=ease,
-                first=[begin],
-                only_first=True,
+                first=[begin, self.start],
+                thorough=False,
             )
 
         ease: dict[int, float] = {}
-        while len(missed := result.missed() - result.undefined - ease.keys()) > (not ease):
-            loser = max(missed, key=lambda i: self.demands[i].order)
+        while len(lost := result.lost()) > (not ease):
+            loser = max(lost, key=lambda i: self.demands[i].order)
             ease[loser] = PULL / result.ratios[loser]
             result = again(ease, result.q)
         for i in sorted(ease, key=lambda i: self.demands[i].order)[: len(ease) - 1]:
             fewer = {k: v for k, v in ease.items() if k != i}
             other = again(fewer, result.q)
-            if other.missed() - other.undefined <= fewer.keys():
+            if not other.lost():
                 ease, result = fewer, other
         return result
 
@@ -287,7 +287,7 @@ class _Moment:
                     unit,
                     tolerance,
                     met,
-                    None if met else diagnosis.reason(i, i in undefined),
+                    None if met else self._reason(diagnosis, i, i in undefined),
                 )
             )
         q.setflags(write=False)
@@ -301,6 +301,9 @@ class _Moment:
             time.perf_counter() - began,
             free | frozenset(self.body.presets) - self.options.fixed,
         )
+
+    def _reason(self, diagnosis: Diagnosis, i: int, undefined: bool) -> str:
+        return diagnosis.reason(i, undefined) if self.options.explain else "not looked into"
 
     def _problem_report(self, p: int, groups: Sequence[Group]) -> ProblemReport:
         problem = self.problems[p]

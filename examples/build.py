@@ -7,6 +7,7 @@ the PNG is also kept in the example's folder, beside its source.
 from __future__ import annotations
 
 import argparse
+import os
 import shlex
 import shutil
 import sys
@@ -32,7 +33,7 @@ def command(source: Path, out: Path) -> list[str]:
     outputs = [argument for name in names for argument in ("-o", str(name))]
     return [
         "compile",
-        str(source),
+        os.path.relpath(source),
         *outputs,
         "--report",
         str(folder / f"{source.stem}.report.json"),

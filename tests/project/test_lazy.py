@@ -38,5 +38,5 @@ def test_a_command_loads_no_more_than_it_needs(
 
 
 def test_importing_the_package_loads_none_of_them(python: Python) -> None:
-    script = "import azee, json, sys; json.dump([m for m in sys.argv[1].split() if m in sys.modules], sys.stdout)"
-    assert json.loads(python("-c", script, " ".join(HEAVY), expect=0).stdout) == []
+    script = "import azee, sys; print([m for m in sys.argv[1].split() if m in sys.modules])"
+    assert python("-c", script, " ".join(HEAVY), expect=0).stdout.strip() == "[]"

@@ -85,7 +85,7 @@ def main(wheel: Path, folder: Path) -> None:
         bone: (*joints, *(h for h, (bending, *_) in mapped["helpers"].items() if bending in joints))
         for bone, joints in bones.items()
     }
-    placer = SitePlacer(surface, anatomy, frames, built.bones, flesh)
+    placer = SitePlacer(surface, anatomy, frames, built.chain.names, built.bones, flesh)
     sites = [placer.place(rule) for rule in read_rules(DATA / "site_rules.csv")]
     expressed, not_expressed = read_face_morphs(DATA / "face_morphs.json", units)
     landmarks = _landmarks(built.chain, built.bones, coordinates)

@@ -94,13 +94,13 @@ def camera(rig: Rig, q: Floats, view: str) -> Camera:
             return _from(middle, towards, 0.13)
     what, towards_eye, half_height = VIEWS[view]
     if what == "body":
-        target = np.array(rig.landmarks.shoulder_middle) + (0.0, -0.17, 0.05)
+        target = rig.landmarks.shoulder_middle + np.array([0.0, -0.17, 0.05])
         half_height *= rig.landmarks.arm_m / 0.48
     elif what == "whole":
         target = np.array([0.0, 0.83, 0.02]) * rig.landmarks.shoulder_middle[1] / 1.31
     elif what == "face":
         eyes = [frames.positions[rig.bones[f"eye_{s}"].node] for s in "LR"]
-        target = (eyes[0] + eyes[1]) / 2.0 + (0.0, -0.02, -0.03)
+        target = (eyes[0] + eyes[1]) / 2.0 + np.array([0.0, -0.02, -0.03])
     else:
         node = rig.bones[what].node
         target = frames.positions[node] + 0.075 * frames.rotations[node][:, 1]

@@ -22,7 +22,7 @@ _FAR = 1e30
 _fill_types = "void(f8[:,::1], i8[:,::1], f8[:,::1], i4[:,::1])"
 
 
-@njit(_fill_types, cache=True)  # type: ignore[misc]
+@njit(_fill_types, cache=True)
 def fill(screen: Any, triangles: Any, depth: Any, seen: Any) -> None:
     """Fill a z-buffer.
 
@@ -65,21 +65,21 @@ def fill(screen: Any, triangles: Any, depth: Any, seen: Any) -> None:
                         seen[y, x] = t
 
 
-@njit("f8(f8[::1], f8[::1], f8[:,::1], f8[:,::1], i8, f8)", cache=True)  # type: ignore[misc]
+@njit("f8(f8[::1], f8[::1], f8[:,::1], f8[:,::1], i8, f8)", cache=True)
 def _lit(p: Any, n: Any, shadow_from: Any, shadow: Any, size: Any, texel_m: Any) -> Any:
     """Share of the key light that reaches a place: nine looks into the shadow buffer."""
     s = np.empty(3)
     for r in range(3):
         s[r] = shadow_from[3, r]
         for k in range(3):
-            s[r] += shadow_from[r, k] * (p[k] + 2.0 * texel_m * n[k])
+            s[r] += shadow_from[r, k] * (p[k] + 3.0 * texel_m * n[k])
     free = 0.0
     for i in range(3):
         for j in range(3):
             x = int(np.floor(s[0] + 1.6 * (i - 1)))
             y = int(np.floor(s[1] + 1.6 * (j - 1)))
             outside = x < 0 or y < 0 or x >= size or y >= size
-            if outside or shadow[y, x] > s[2] - 1.5 * texel_m:
+            if outside or shadow[y, x] > s[2] - 2.0 * texel_m:
                 free += 1.0
     return free / 9.0
 
@@ -90,7 +90,7 @@ _shade_types = (
 )
 
 
-@njit(_shade_types, cache=True)  # type: ignore[misc]
+@njit(_shade_types, cache=True)
 def shade(
     screen: Any,
     inverse_w: Any,
@@ -158,10 +158,11 @@ def shade(
                 n[k] /= length
                 view[k] /= reach
                 facing += n[k] * view[k]
-            if facing < 0.0:
+            if area > 0.0:  # y runs down the screen: this is the triangle's back
                 facing = -facing
                 for k in range(3):
                     n[k] = -n[k]
+            facing = max(facing, 0.0)
             direct = n[0] * sun[0] + n[1] * sun[1] + n[2] * sun[2]
             lit = 1.0
             if direct > 0.0:
@@ -181,7 +182,7 @@ def shade(
             dimmed = 1.0 - 0.8 * turned * (1.0 - lit)
             v0, u0 = y // samples, x // samples
             for k in range(3):
-                soft = 0.26 if k == 0 else 0.20
+                soft = 0.24 if k == 0 else 0.21
                 wrapped = max((direct + soft) / (1.0 + soft), 0.0)
                 ambient = lights[1, k] * up + lights[2, k] * (1.0 - up)
                 light = lights[0, k] * wrapped * dimmed

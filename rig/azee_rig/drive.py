@@ -76,6 +76,6 @@ class Drive:
         rotations = to_quaternions(local[..., self.half_of < 0, :, :])
         out = np.empty((*batch, len(self.node), 4))
         out[..., self.half_of < 0, :] = rotations
-        for j in np.flatnonzero(self.half_of >= 0):
-            out[..., j, :] = half_turn(out[..., self.half_of[j], :])
+        for helper in np.flatnonzero(self.half_of >= 0):
+            out[..., helper, :] = half_turn(out[..., self.half_of[helper], :])
         return Pose(np.zeros((*batch, 3)), out)

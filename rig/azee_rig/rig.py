@@ -92,7 +92,8 @@ class Rig:
     coordinate. face_morphs: weights that a morph of weight 1 adds to each face unit.
     unexpressed_morphs: AZee morphs that this face cannot show, with the reason.
     units: names of the face units. lids: per unit a coordinate of an eye and the weight per
-    radian, in effect where it is positive. folder: where the mesh lies; it is read when first asked for.
+    radian, in effect where it is positive. folder: where the mesh lies, to be read when first
+    asked for.
     """
 
     name: str

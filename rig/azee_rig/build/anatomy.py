@@ -69,7 +69,7 @@ def read_anatomy(
 
 
 def unit(v: Floats) -> Floats:
-    """v at length one."""
+    """Return v at length one."""
     return np.asarray(v / np.linalg.norm(v))
 
 

@@ -111,7 +111,7 @@ def _fit_head(fit: _Fitter) -> None:
         radius,
     )
     lower = skin[(skin[:, 1] < middle[1] - 0.6 * apart) & (skin[:, 2] > middle[2] - 1.0 * apart)]
-    radius = float(np.percentile(np.abs(lower[:, 0]), 90.0))
+    radius = 0.9 * float(np.percentile(np.abs(lower[:, 0]), 98.0))
     chin, face = float(lower[:, 1].min()), float(np.percentile(lower[:, 2], 90.0))
     fit.add(
         "face",
@@ -131,7 +131,7 @@ def _fit_arm(fit: _Fitter, side: str) -> None:
     flesh = fit.skin_of(palm)
     R = fit.frames.rotations[fit.bones[palm].node]
     for name, fingers in (("radial", ("index", "middle")), ("ulnar", ("ring", "little"))):
-        knuckle = sum(fit.anatomy.origin(f"{f}_{side}_1") for f in fingers) / 2.0
+        knuckle = np.mean([fit.anatomy.origin(f"{f}_{side}_1") for f in fingers], axis=0)
         start = wrist + 0.25 * (knuckle - wrist)
         depth = (flesh - start) @ R[:, 2]
         near = np.abs((flesh - start) @ R[:, 0]) < 0.02
@@ -148,7 +148,7 @@ def _fit_arm(fit: _Fitter, side: str) -> None:
             tip = fit.anatomy.tips[f"{digit}_{side}"]
             far_end = tip if k == 3 else fit.anatomy.origin(f"{digit}_{side}_{k + 1}")
             flesh = fit.skin_of(bone, at_least=0.5)
-            radius = _radius(flesh, near_end, far_end, 60.0)
+            radius = _radius(flesh, near_end, far_end, 55.0, from_end=0.45 if k == 1 else 0.1)
             if k == 3:
                 far_end = far_end - (far_end - near_end) * min(
                     0.6, radius / float(np.linalg.norm(far_end - near_end))
@@ -171,12 +171,15 @@ def _fit_limb(
     fit.add(name, node, a, b, _radius(fit.skin_of(*flesh_of), a, b, LIMB_SHARE))
 
 
-def _radius(points: Floats, a: Floats, b: Floats, share: float) -> float:
-    """Percentile of the distances of the points beside a segment from its line."""
+def _radius(points: Floats, a: Floats, b: Floats, share: float, from_end: float = 0.0) -> float:
+    """Percentile of the distances of the points beside a segment from its line.
+
+    Args: from_end: share of the segment at its start that does not count (webs between fingers).
+    """
     along = (points - a) @ (b - a) / ((b - a) @ (b - a))
-    beside = points[(along >= 0.0) & (along <= 1.0)]
-    foot = a + along[(along >= 0.0) & (along <= 1.0), None] * (b - a)
-    return float(np.percentile(np.linalg.norm(beside - foot, axis=1), share))
+    counted = (along >= from_end) & (along <= 1.0)
+    foot = a + along[counted, None] * (b - a)
+    return float(np.percentile(np.linalg.norm(points[counted] - foot, axis=1), share))
 
 
 def _arm_names(side: str) -> tuple[str, ...]:
@@ -197,6 +200,13 @@ def _pairs() -> Iterator[tuple[str, str]]:
     yield from product(left[:2], right[2:])
 
 
+def _same_or_webbed(first: str, second: str) -> bool:
+    """Whether two phalanges of one hand belong together: one digit, or neighbours at their web."""
+    (a, _, i), (b, _, j) = first.split("_"), second.split("_")
+    apart = abs(DIGITS.index(a) - DIGITS.index(b))
+    return apart == 0 or (apart == 1 and "1" in (i, j))
+
+
 def _finger_pairs(names: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     """Fingers against trunk, head and the other arm and hand; and against other digits."""
     body = [n for n in names if n.startswith("trunk") or n in ("neck", "skull", "face")]
@@ -207,6 +217,6 @@ def _finger_pairs(names: tuple[str, ...]) -> Iterator[tuple[str, str]]:
         yield from product(own[side], [*body, *_arm_names(other)])
         for i, first in enumerate(own[side]):
             for second in own[side][i + 1 :]:
-                if first.split("_")[0] != second.split("_")[0]:
+                if not _same_or_webbed(first, second):
                     yield first, second
     yield from product(own["L"], own["R"])

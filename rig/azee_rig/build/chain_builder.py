@@ -5,7 +5,8 @@ node's frame has columns x, dir, nrm with x = dir × nrm; dir runs from proximal
 
 | bone | nrm | turns, in order |
 |---|---|---|
-| back, neck, head | forward | about x, −nrm, dir: flexion, lateral, axial (neck, head: axial first) |
+| back | forward | flexion about x, lateral about −nrm, axial about dir |
+| neck, head | forward | the same, axial first |
 | clav | forward | elevation about nrm, protraction about x |
 | arm | elbow crease | flexion about x, abduction about nrm, rotation about dir |
 | f_arm | palm side at the wrist | flexion about ±nrm (the arm's x), pronation about dir |
@@ -14,7 +15,8 @@ node's frame has columns x, dir, nrm with x = dir × nrm; dir runs from proximal
 | thumb | pad; ulnar at zero | flexion about x, abduction about nrm, roll about dir; flexion |
 | eye | up | yaw about nrm, pitch about x |
 
-Turns about dir and nrm change sign on the right, except those of the eyes.
+Turns about dir and nrm change sign on the right, except those of the eyes. Beside these,
+`elbow` and `carpus` bend by half as much as f_arm and palm and carry the skin in the crease.
 
 A raised arm lifts its shoulder: abduction and flexion of the arm turn the clavicle up by a share
 each, and the arm turns back by as much, so that the direction of the arm itself does not change
@@ -25,6 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -200,19 +203,24 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     R = made.node(f_arm, arm, elbow, medial, turns)
     made.bone(f_arm, [f_arm])
 
+    halfway = [(NRM, 0.5 * sign, f"{f_arm}.flexion")]
+    made.node(f"elbow_{side}", arm, elbow, medial, halfway)
+
     a, b, rest = _turn_angles(R.T @ palm_frame, X, NRM, DIR)
     _expect_small(rest, palm)
     made.bind |= {f"{palm}.flexion": a, f"{palm}.deviation": sign * b}
     turns = [(X, 1.0, f"{palm}.flexion"), (NRM, sign, f"{palm}.deviation")]
     made.node(palm, f_arm, wrist, np.eye(3), turns)
     made.bone(palm, [palm])
+    halfway = [(axis, 0.5 * share, name) for axis, share, name in turns]
+    made.node(f"carpus_{side}", f_arm, wrist, np.eye(3), halfway)
 
 
 X_AXIS, DIR_AXIS, NRM_AXIS = np.eye(3)
 
 
 def _palm_frame(anatomy: Anatomy, side: str, sign: float) -> Floats:
-    """dir from the wrist to the middle knuckle, x along the knuckles to the ulnar side."""
+    """Return columns x, dir, nrm: dir from the wrist to the middle knuckle, x to the ulnar side."""
     wrist = anatomy.origin(f"palm_{side}")
     knuckle = {f: anatomy.origin(f"{f}_{side}_1") for f in FINGERS}
     across = sign * (knuckle["little"] - knuckle["index"])
@@ -257,7 +265,7 @@ def _thumb(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     ends = [*(anatomy.origin(n) for n in names), anatomy.tips[f"thumb_{side}"]]
     last = unit(ends[3] - ends[2])
     across = unit(np.cross(last, -anatomy.thumb_nail[side]))
-    along = [unit(b - a) for a, b in zip(ends, ends[1:], strict=False)]
+    along = [unit(b - a) for a, b in pairwise(ends)]
     first = along[0] - across * (across @ along[0])
     in_mesh = frame(first, np.cross(across, first))
     zero = np.stack([-sign * NRM_AXIS, DIR_AXIS, sign * X_AXIS], axis=1)

@@ -83,7 +83,7 @@ def clothes(suit: Piece, anatomy: Anatomy) -> Sequence[Piece]:
     pattern = Pattern(anatomy)
     upper = pattern.hem(suit.vertices, 0.20) > 0.0
     loose = suit.smoothed(4, 0.6 * _chest(suit.vertices, anatomy))
-    fine = loose.only(upper[loose.triangles].all(axis=1)).subdivided().smoothed(2, 0.35)
+    fine = loose.only(np.asarray(upper[loose.triangles].all(axis=1))).subdivided().smoothed(2, 0.35)
     fine = fine.relaxed(8)
     wide = pattern.hem(fine.vertices, 0.07)
     cloth = fine.raised(0.0045 + 0.006 * smooth_step(0.35, 0.0, wide))
@@ -105,9 +105,9 @@ def clothes(suit: Piece, anatomy: Anatomy) -> Sequence[Piece]:
 
 
 def bare(skin: Piece, anatomy: Anatomy, margin_m: float = 0.02) -> Piece:
-    """The skin without what lies further than a margin under clothes."""
+    """Return the skin without what lies further than a margin under cloth."""
     hidden = Pattern(anatomy).covered(skin.vertices) > margin_m
-    return skin.only(~hidden[skin.triangles].all(axis=1))
+    return skin.only(np.asarray(~hidden[skin.triangles].all(axis=1)))
 
 
 def smooth_step(start: float, end: float, x: Floats) -> Floats:

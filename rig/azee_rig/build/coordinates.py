@@ -43,8 +43,10 @@ def read_coordinates(path: Path, bind: Mapping[str, float]) -> Coordinates:
 def _rows(path: Path) -> dict[str, Mapping[str, str]]:
     with path.open(encoding="utf-8", newline="") as file:
         table = list(csv.DictReader(file))
-    middle = {row["coordinate"]: row for row in table if "{S}" not in row["coordinate"]}
-    sided = {
+    middle: dict[str, Mapping[str, str]] = {
+        row["coordinate"]: row for row in table if "{S}" not in row["coordinate"]
+    }
+    sided: dict[str, Mapping[str, str]] = {
         row["coordinate"].format(S=side): row
         for side in SIDES
         for row in table

@@ -9,9 +9,10 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from azee_rig.build.anatomy import SIDES, Anatomy, unit
+from azee_rig.build.anatomy import SIDES, Anatomy
 from azee_rig.build.clothes import smooth_step
 from azee_rig.build.piece import Piece
+from azee_rig.build.surface import barycentric
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -118,7 +119,9 @@ def brows(skin: Piece, anatomy: Anatomy, colour: tuple[float, float, float]) -> 
         np.stack([across, up], axis=1)[:, None]
         + (rows[:, None] * half[:, None, None]) * tilt[:, None]
     )
-    places, lifts, triangles = [], [], []
+    places: list[Floats] = []
+    lifts: list[float] = []
+    triangles: list[tuple[int, int, int]] = []
     for sign in (1.0, -1.0):
         start = len(places)
         for i in range(BROW_STEPS):
@@ -162,7 +165,7 @@ def _curve(at: Floats, knots: Floats, values: Floats) -> Floats:
 
 
 def _under(mesh: trimesh.Trimesh, places: Floats) -> tuple[Floats, Ints, Floats]:
-    """What lies first behind each place: point, triangle and barycentric shares."""
+    """Return what lies first behind each place: point, triangle and barycentric shares."""
     found, ray, hit = mesh.ray.intersects_location(
         places, np.tile([0.0, 0.0, -1.0], (len(places), 1)), multiple_hits=False
     )
@@ -170,12 +173,12 @@ def _under(mesh: trimesh.Trimesh, places: Floats) -> tuple[Floats, Ints, Floats]
     if len(order) != len(places):
         raise ValueError("a brow reaches beyond the face")
     found, hit = found[order], hit[order]
-    shares = trimesh.triangles.points_to_barycentric(mesh.triangles[hit], found)
+    shares = barycentric(mesh.triangles[hit], found)
     return found, hit, shares
 
 
 def tinted(skin: Piece, regions: Mapping[str, Ints], count: int) -> Piece:
-    """The skin with lips, nails and the inside of the mouth in colours of their own.
+    """Return the skin with lips, nails and inner mouth in their own colours.
 
     count: vertices of the whole body, in which `regions` are numbered; `skin` is uncut.
     """

@@ -105,7 +105,7 @@ def _rim_distance(piece: Piece, reach_m: float) -> Floats:
 
 def _strands(at: Floats, centre: Floats) -> Floats:
     """−1 … 1, waving across the way that hair falls from a crown at the back of the head."""
-    crown = centre + (0.012, 0.09, -0.03)
+    crown = centre + np.array([0.012, 0.09, -0.03])
     turn = np.arctan2(at[:, 0] - crown[0], at[:, 2] - crown[2])
     fall = np.linalg.norm(at - crown, axis=1)
     wave = np.sin(23.0 * turn + 14.0 * fall) + 0.6 * np.sin(41.0 * turn - 23.0 * fall + 1.0)

@@ -100,7 +100,7 @@ def read_body(wheel: Path, phenotype: Mapping[str, float], expression: Mapping[s
                 rows = np.array([end["vertex_index"]])
             case _:
                 rows = np.array(end["vertex_indices"])
-        return vertices[rows].mean(axis=0)
+        return np.asarray(vertices[rows].mean(axis=0))
 
     matrix = np.zeros((len(vertices), len(joints)))
     for j, name in enumerate(joints):
@@ -144,7 +144,7 @@ def _read_obj(text: str) -> tuple[Floats, Ints, Ints, tuple[str, ...]]:
 
 
 def _read_shapes(archive: zipfile.ZipFile) -> Iterable[tuple[str, tuple[Ints, Floats]]]:
-    """The 52 ARKit-style units under their own names, MakeHuman's 34 with the prefix `mh_`."""
+    """Yield the 52 ARKit-style units under their own names, MakeHuman's 34 as `mh_…`."""
     entries = sorted(archive.namelist())
     for folder, prefix in (
         (f"{_ROOT}/faceunits01/targets/faceunits/", ""),

@@ -51,7 +51,7 @@ def read_face_morphs(
 
 
 def read_lids(path: Path, units: Sequence[str]) -> dict[str, tuple[str, float]]:
-    """What lids do when an eye turns: per face unit a coordinate and weight per radian.
+    """Read what lids do when an eye turns: per face unit a coordinate and weight per radian.
 
     Raises: ValueError: a row names no unit of the face.
     """

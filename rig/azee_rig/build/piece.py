@@ -38,7 +38,7 @@ class Piece:
     roughness: float = 0.7
 
     def only(self, keep: NDArray[np.bool_]) -> Piece:
-        """The piece with some of its triangles, (f,), and no vertices beyond theirs."""
+        """Return the piece with some of its triangles, (f,), and their vertices only."""
         triangles = self.triangles[keep]
         used = np.unique(triangles)
         renumbered = np.full(len(self.vertices), -1)
@@ -53,7 +53,7 @@ class Piece:
         )
 
     def clipped(self, keep: Floats) -> Piece:
-        """The part of the piece where a function of its vertices, (n,), is positive.
+        """Return the part of the piece where a function of its vertices, (n,), is positive.
 
         Triangles that the zero line crosses are cut along it, so that an edge runs smoothly
         whatever the mesh is like; what the new vertices carry is interpolated.
@@ -86,7 +86,7 @@ class Piece:
         return self.extended(rows, shares).retriangulated(np.concatenate(triangles))
 
     def extended(self, rows: Ints, shares: Floats) -> Piece:
-        """The piece with further vertices, each a blend of old ones: rows, shares (m, k)."""
+        """Return the piece with more vertices, blends of old ones: rows, shares (m, k)."""
         new = self.blend(rows, shares, np.einsum("mk,mkc->mc", shares, self.vertices[rows]))
         return replace(
             self,
@@ -97,11 +97,11 @@ class Piece:
         )
 
     def retriangulated(self, triangles: Ints) -> Piece:
-        """The piece with other triangles, and no vertices beyond theirs."""
+        """Return the piece with other triangles, and no vertices beyond theirs."""
         return replace(self, triangles=triangles).only(np.ones(len(triangles), dtype=bool))
 
     def subdivided(self) -> Piece:
-        """The piece with each triangle cut in four at the middles of its edges."""
+        """Return the piece with each triangle cut in four at the middles of its edges."""
         edges = np.sort(self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
         unique, which = np.unique(edges, axis=0, return_inverse=True)
         ab, bc, ca = (which.reshape(-1, 3) + len(self.vertices)).T
@@ -111,7 +111,7 @@ class Piece:
         return replace(finer, triangles=np.concatenate([np.stack(t, axis=1) for t in new]))
 
     def smoothed(self, steps: int, share: Floats | float = 0.5) -> Piece:
-        """The piece with vertices drawn towards their neighbours' mean; its rim stays."""
+        """Return the piece with vertices drawn towards their neighbours' mean; its rim stays."""
         pull = np.where(self.on_rim, 0.0, share)[:, None]
         vertices = self.vertices
         for _ in range(steps):
@@ -119,7 +119,7 @@ class Piece:
         return replace(self, vertices=vertices)
 
     def relaxed(self, steps: int, share: float = 0.5) -> Piece:
-        """The piece with skin weights drawn towards their neighbours' mean."""
+        """Return the piece with skin weights drawn towards their neighbours' mean."""
         weights = self.weights
         for _ in range(steps):
             weights = weights + share * (self._around(weights) - weights)
@@ -147,7 +147,7 @@ class Piece:
         return np.stack(columns, axis=1)
 
     def folded(self, depth_m: float) -> Piece:
-        """The piece with its rims turned in, as cloth has them: its edge gets a thickness."""
+        """Return the piece with its rims turned in, so that cloth has a thickness."""
         edges = self._edges
         _, which, times = np.unique(
             np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True
@@ -167,7 +167,7 @@ class Piece:
         )
 
     def raised(self, height: Floats | float) -> Piece:
-        """The piece moved outwards along its normals, metres: one height or one per vertex."""
+        """Return the piece moved out along its normals: one height in metres, or one each."""
         normals = vertex_normals(self.vertices, self.triangles)
         return replace(self, vertices=self.vertices + np.reshape(height, (-1, 1)) * normals)
 
@@ -237,7 +237,7 @@ def assemble(pieces: Sequence[Piece], units: Sequence[str]) -> BodyMesh:
 
 
 def _capped(weights: Floats) -> tuple[Ints, Floats]:
-    """The heaviest influences of each vertex, (N, 8) joints and weights that sum to 1."""
+    """Return the heaviest influences (N, 8): joints, and weights that sum to 1."""
     order = np.argsort(-weights, axis=1, kind="stable")[:, :INFLUENCES]
     kept = np.take_along_axis(weights, order, axis=1)
     kept = np.where(kept >= LEAST_WEIGHT, kept, 0.0)

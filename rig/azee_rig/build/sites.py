@@ -4,7 +4,7 @@ The rules are data (data/site_rules.csv), one row per family of names, so that a
 its sites by the same rows. Columns:
 
 name, digits, phalanges: `{F}` is a digit's letter, `{S}` the side, `{k}` the phalanx.
-bone: the AZee bone; node: the node that carries the site, where that is another one.
+bone: the AZee bone; node: the bone or helper node that carries the site, where another does.
 from, to, at: the ray starts at that fraction of the way between two joints; or from the middle
 between the eyes (`eyes`).
 shift, unit: moves the start, along out · dir · nrm (limbs) or out · up · forward (head, trunk),
@@ -94,12 +94,13 @@ class SitePlacer:
     surface: Surface
     anatomy: Anatomy
     frames: Frames
+    nodes: tuple[str, ...]
     bones: Mapping[str, BoneNodes]
     joints: Mapping[str, tuple[str, ...]]
 
     def place(self, rule: SiteRule) -> RigSite:
         """Cast the rule's ray. Raises ValueError, with the site's name, when it meets nothing."""
-        node = self.bones[rule.node].node
+        node = self._node(rule)
         R, origin = self.frames.rotations[node], self.frames.positions[node]
         axes = self._axes(rule)
         start = self._start(rule, axes)
@@ -111,29 +112,35 @@ class SitePlacer:
             raise ValueError(f"{rule.name}: {error}") from error
         return RigSite(rule.name, rule.bone, node, R.T @ (point - origin), R.T @ normal)
 
+    def _node(self, rule: SiteRule) -> int:
+        named = self.bones.get(rule.node)
+        return self.nodes.index(rule.node) if named is None else named.node
+
     def _axes(self, rule: SiteRule) -> Floats:
         """Columns out, dir or up, nrm or forward."""
         sign = -1.0 if rule.side == "R" else 1.0
-        if rule.bone.startswith(AXIAL):
+        if rule.node.startswith(AXIAL):
             return np.diag([sign, 1.0, 1.0])
-        R = self.frames.rotations[self.bones[rule.bone].node]
-        return R * (-sign, 1.0, 1.0)
+        R = self.frames.rotations[self._node(rule)]
+        return np.asarray(R * (-sign, 1.0, 1.0))
 
     def _start(self, rule: SiteRule, axes: Floats) -> Floats:
+        eyes = [self.anatomy.origin(f"eye_{s}") for s in SIDES]
+        shoulders = [self.anatomy.origin(f"arm_{s}") for s in SIDES]
+        lengths = {
+            "eyes": _distance(*eyes),
+            "shoulders": _distance(*shoulders) / 2.0,
+            "bone": 0.0,
+        }
         if rule.start == "eyes":
-            eyes = [self.anatomy.origin(f"eye_{s}") for s in SIDES]
-            start, length = (eyes[0] + eyes[1]) / 2.0, np.linalg.norm(eyes[0] - eyes[1])
+            start = (eyes[0] + eyes[1]) / 2.0
+        elif rule.end:
+            near, far = self._joint(rule.start), self._joint(rule.end)
+            start = near + rule.at * (far - near)
+            lengths["bone"] = _distance(near, far)
         else:
-            start = near = self._joint(rule.start)
-            length = 0.0
-            if rule.end:
-                far = self._joint(rule.end)
-                start = near + rule.at * (far - near)
-                length = np.linalg.norm(far - near)
-        if rule.unit == "shoulders":
-            shoulders = [self.anatomy.origin(f"arm_{s}") for s in SIDES]
-            length = np.linalg.norm(shoulders[0] - shoulders[1]) / 2.0
-        return np.asarray(start + axes @ rule.shift * length)
+            start = self._joint(rule.start)
+        return np.asarray(start + axes @ rule.shift * lengths[rule.unit])
 
     def _joint(self, name: str) -> Floats:
         if name.startswith("tip "):
@@ -166,3 +173,7 @@ class SitePlacer:
     def _moved(self, bones: list[str], at_least: float) -> Mask:
         joints = [j for bone in bones for j in self.joints[bone]]
         return self.surface.moved_by(joints, at_least)
+
+
+def _distance(a: Floats, b: Floats) -> float:
+    return float(np.linalg.norm(a - b))

@@ -39,7 +39,7 @@ class Surface:
 
     def moved_by(self, joints: Sequence[str], at_least: float) -> Mask:
         """Triangles that some joints together carry by at least a share, (F,)."""
-        return self.share(joints)[self.mesh.triangles].mean(axis=1) >= at_least
+        return np.asarray(self.share(joints)[self.mesh.triangles].mean(axis=1) >= at_least)
 
     def share(self, joints: Sequence[str]) -> Floats:
         """Weight of some joints together on each vertex, (N,)."""
@@ -47,7 +47,7 @@ class Surface:
         return np.asarray(self.mesh.dense_weights[:, columns].sum(axis=1))
 
     def cast(self, start: Floats, toward: Floats, allowed: Mask, hit: str) -> tuple[Floats, Floats]:
-        """The first or last point where a ray meets allowed triangles, and the normal there.
+        """Return where a ray first or last meets allowed triangles, and the normal there.
 
         The normal is interpolated from the vertices. Raises ValueError when nothing is met.
         """
@@ -61,8 +61,16 @@ class Surface:
             raise ValueError("the ray meets nothing that it may meet")
         found = usable[0] if hit == "first" else usable[-1]
         corners = self.mesh.triangles[triangles[found]]
-        shares = trimesh.triangles.points_to_barycentric(
-            self.mesh.vertices[corners][None], places[found][None]
-        )[0]
+        shares = barycentric(self.mesh.vertices[corners][None], places[found][None])[0]
         normal = shares @ self.mesh.normals[corners]
         return places[found], np.asarray(normal / np.linalg.norm(normal))
+
+
+def barycentric(corners: Floats, points: Floats) -> Floats:
+    """Shares (n, 3) of the corners (n, 3, 3) of triangles at points (n, 3) in their planes."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    normal = np.cross(b - a, c - a)
+    area = (normal * normal).sum(axis=1)
+    u = (np.cross(c - b, points - b) * normal).sum(axis=1) / area
+    v = (np.cross(a - c, points - c) * normal).sum(axis=1) / area
+    return np.stack([u, v, 1.0 - u - v], axis=1)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from azee.formats import SUFFIXES, WRITERS, writing
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class Compilation:
         from azee.export.files import replace_file
 
         data = json.dumps(self.report.as_json(), indent=2, ensure_ascii=False, allow_nan=False)
-        with _writing(path), replace_file(path) as file:
+        with writing(path), replace_file(path) as file:
             file.write(f"{data}\n".encode())
 
     def save(self, path: str | Path) -> None:
@@ -61,10 +61,10 @@ class Compilation:
 
         Raises: ValueError: no format has that suffix. AZeeError: cannot-write.
         """
-        write = _WRITERS.get(Path(path).suffix.lower())
+        write = WRITERS.get(Path(path).suffix.lower())
         if write is None:
             raise ValueError(f"no format has the suffix of {path}; known are {' '.join(SUFFIXES)}")
-        with _writing(path):
+        with writing(path):
             write(self, Path(path))
 
 
@@ -162,14 +162,6 @@ def _lacking(error: BindingError, rig: Rig) -> Diagnostic:
     return Diagnostic(error.code, message, None, notes=written)
 
 
-def save_score(score: Score, path: str | Path) -> None:
-    """Draw a score as SVG. Raises: AZeeError: cannot-write."""
-    from azee.export.score_svg import write_svg
-
-    with _writing(path):
-        write_svg(score, path)
-
-
 def _source(text_or_path: str | Path) -> Source:
     from azee_grammar.files import read_source
     from azee_grammar.source import Source
@@ -185,69 +177,3 @@ def _side(hand: Hand) -> Side:
     from azee_solver.geometry import Side
 
     return {"right": Side.RIGHT, "left": Side.LEFT}[hand]
-
-
-@contextmanager
-def _writing(path: str | Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        raise AZeeError(cannot_write(path, error)) from error
-
-
-def cannot_write(path: str | Path, error: OSError) -> Diagnostic:
-    """Tell in the user's words why a file cannot be written."""
-    folder = Path(path).parent
-    if isinstance(error, FileNotFoundError):
-        return Diagnostic("cannot-write", f"there is no folder `{folder}` for `{path}`", None)
-    if isinstance(error, IsADirectoryError):
-        return Diagnostic("cannot-write", f"`{path}` is a directory", None)
-    if isinstance(error, NotADirectoryError):
-        return Diagnostic(
-            "cannot-write", f"cannot write `{path}`: `{folder}` is not a directory", None
-        )
-    if isinstance(error, PermissionError):
-        return Diagnostic("cannot-write", f"no permission to write `{path}`", None)
-    reason = error.strerror or type(error).__name__
-    return Diagnostic("cannot-write", f"cannot write `{path}`: {reason.lower()}", None)
-
-
-def _glb(made: Compilation, path: Path) -> None:
-    from azee.export.glb import write_glb
-
-    write_glb(made.clip, made.rig, path)
-
-
-def _bvh(made: Compilation, path: Path) -> None:
-    from azee.export.bvh import write_bvh
-
-    write_bvh(made.clip, made.rig, path)
-
-
-def _json(made: Compilation, path: Path) -> None:
-    from azee.export.clip_json import write_json
-
-    write_json(made.clip, made.rig, path)
-
-
-def _svg(made: Compilation, path: Path) -> None:
-    from azee.export.score_svg import write_svg
-
-    write_svg(made.score, path)
-
-
-def _png(made: Compilation, path: Path) -> None:
-    from azee.export.storyboard import write_png
-
-    write_png(made.clip, made.rig, path, made.animation.key_times)
-
-
-_WRITERS: dict[str, Callable[[Compilation, Path], None]] = {
-    ".glb": _glb,
-    ".bvh": _bvh,
-    ".json": _json,
-    ".svg": _svg,
-    ".png": _png,
-}
-SUFFIXES = tuple(_WRITERS)
-"""Suffixes of the formats that a compilation can be saved in."""

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from azee.compilation import SUFFIXES, perform, score_of
+from azee.compilation import perform, score_of
+from azee.formats import SUFFIXES
 from azee.lang.program import load
 from azee.score.score import Score
 from azee_grammar.files import read_source

@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from azee.cli.main import run
-from azee.compilation import SUFFIXES
+from azee.formats import SUFFIXES
 
 HERE = Path(__file__).parent
 

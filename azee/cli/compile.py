@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING
 import click
 
 from azee.cli.body import load_body
-from azee.cli.console import DONE, MISSED, Progress, as_json, news, show, show_json, working
+from azee.cli.console import DONE, FAULT, MISSED, Progress, as_json, news, show, show_json, working
 from azee.cli.outcome import outcome
 from azee.cli.outputs import check_outputs, with_suffix
 from azee.cli.text import Text, dominant_option, text_options
-from azee.compilation import SUFFIXES, perform
+from azee.compilation import perform
+from azee.formats import SUFFIXES
+from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
     from azee.compilation import Hand
@@ -97,19 +99,25 @@ def compile_(
     Exit codes: 0 done; 1 the input is at fault; 2 wrong use; 3 a constraint is out of tolerance
     and --strict is given.
     """
-    quiet = quiet or form == "json"
-    check_outputs([*outputs, *([report] if report else [])])
+    files = [*outputs, *([report] if report else [])]
     body = load_body(rig)
-    text = Text.read(file, expression, utterance, libraries)
-    score = text.score(dominant)
-    with working("Solving …", quiet=quiet) as progress:
-        _prepare(progress)
-        made = perform(score, body, dominant=dominant, fps=fps, mode=mode, life=not no_life)
-        for path in outputs:
-            progress.now(f"Writing {path} …")
-            made.save(path)
-    if report:
-        made.save_report(report)
+    try:
+        check_outputs(files)
+        text = Text.read(file, expression, utterance, libraries)
+        score = text.score(dominant)
+        with working("Solving …", quiet=quiet or form == "json") as progress:
+            _prepare(progress)
+            made = perform(score, body, dominant=dominant, fps=fps, mode=mode, life=not no_life)
+            for path in outputs:
+                progress.now(f"Writing {path} …")
+                made.save(path)
+        if report:
+            made.save_report(report)
+    except AZeeError as error:
+        if form != "json":
+            raise
+        show_json({"diagnostics": as_json(error.diagnostics), "outputs": [], "report": None})
+        return FAULT
     if form == "json":
         show_json(
             {
@@ -120,7 +128,7 @@ def compile_(
         )
     else:
         show(text.warnings)
-        news(outcome(made, [*outputs, *([report] if report else [])]), quiet=quiet)
+        news(outcome(made, files), quiet=quiet)
     return MISSED if strict and not made.report.met else DONE
 
 

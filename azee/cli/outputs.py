@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from azee.compilation import cannot_write
+from azee.formats import cannot_write
 from azee_grammar.diagnostic import AZeeError
 
 

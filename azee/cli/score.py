@@ -9,7 +9,7 @@ import click
 
 from azee.cli.outputs import check_outputs, with_suffix
 from azee.cli.text import Text, text_options
-from azee.compilation import save_score
+from azee.formats import writing
 
 
 @click.command(short_help="The nested score of a text.")
@@ -30,12 +30,14 @@ def score(
     output: Path | None,
 ) -> None:
     """Print the score of FILE (`-` is standard input): times, blocks and constraints."""
+    from azee.export.score_svg import write_svg
     from azee.export.score_text import tree
 
     if output:
         check_outputs([output])
     found = Text.read(file, expression, utterance, libraries).score()
     if output:
-        save_score(found, output)
+        with writing(output):
+            write_svg(found, output)
     else:
         click.echo(tree(found), nl=False)

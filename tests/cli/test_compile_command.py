@@ -14,7 +14,7 @@ from programs import Python
 
 import azee
 from azee.cli.main import run
-from azee.compilation import SUFFIXES
+from azee.formats import SUFFIXES
 
 TOUCH = """\
 key .5
@@ -130,6 +130,25 @@ def test_json_for_scripts(capsys: pytest.CaptureFixture[str]) -> None:
     assert document["outputs"] == ["touch.bvh"]
     jsonschema.validate(document, schema("diagnostics"))
     jsonschema.validate(document["report"], schema("report"))
+
+
+def test_json_for_scripts_that_are_wrong(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["compile", "-e", ":wardrob", "-o", "x.bvh", "--format", "json"]) == 1
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    document = json.loads(captured.out)
+    jsonschema.validate(document, schema("diagnostics"))
+    assert [d["code"] for d in document["diagnostics"]] == ["unknown-rule"]
+    assert document["outputs"] == []
+    assert not Path("x.bvh").exists()
+
+
+def test_an_expression_does_not_hide_what_is_wrong_with_its_file(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    Path("broken.azee").write_text("def a\n    key 1 (look ^nowhere)\n", encoding="utf-8")
+    assert run(["compile", "broken.azee", "-e", "key 1 (look ^fwd)", "-o", "x.bvh"]) == 1
+    assert "error[unknown-name]" in capsys.readouterr().err
 
 
 def test_a_miss_is_named_and_strict_makes_it_count(capsys: pytest.CaptureFixture[str]) -> None:

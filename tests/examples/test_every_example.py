@@ -17,7 +17,7 @@ from plain_bvh import PlainBvh
 from programs import Node
 
 from azee.cli.main import run
-from azee.compilation import SUFFIXES
+from azee.formats import SUFFIXES
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SOURCES = sorted(EXAMPLES.glob("*/*.azee"))

@@ -139,6 +139,7 @@ class Native:
     options: tuple[Option, ...] = ()
     result: Kind | None = None
     published: bool = False
+    only_name_published: bool = False
     example: str = ""
     function: Callable[..., Any] | None = None
     uses_machine: bool = False

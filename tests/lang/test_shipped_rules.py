@@ -140,9 +140,8 @@ def test_in_context_has_a_nod_and_three_moves() -> None:
 def test_nicht_sondern_has_a_headshake_over_a_hold() -> None:
     form = group("nicht-sondern(blank(2), blank(2))")
     found = times(form)
-    assert found["NICHT"] == (0, 2)
-    assert found["HOLD"] == (2, 2.1)
-    assert found["SONDERN"] == (2.27, 4.27)
+    expected = {"NICHT": (0, 2), "HOLD": (2, 2.1), "SONDERN": (2.27, 4.27)}
+    assert {name: found[name] for name in expected} == expected
     shake = [leaf for leaf in leaves(form) if leaf.path[0] == "HEADSHAKE"]
     starts = [float(leaf.interval.start - 2) for leaf in shake]
     assert starts == pytest.approx([-0.1, 0.03, 0.2, 0.32])

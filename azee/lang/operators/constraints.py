@@ -169,7 +169,7 @@ def _native(
     *,
     options: tuple[Option, ...] = (),
     uses_machine: bool = False,
-    published: bool = True,
+    only_name_published: bool = False,
 ) -> Native:
     return Native(
         name,
@@ -177,17 +177,18 @@ def _native(
         meaning,
         operands,
         options,
-        Kind.CONSTRAINTS,
-        published,
-        example,
-        function,
-        uses_machine,
+        result=Kind.CONSTRAINTS,
+        published=not only_name_published,
+        only_name_published=only_name_published,
+        example=example,
+        function=function,
+        uses_machine=uses_machine,
     )
 
 
-_SITE = Operand("site", "a site such as `@I_TIP(s)`", (Kind.SITE,))
-_POINT = Operand("point", "a point or a site", (Kind.POINT,))
-_BONE = Operand("bone", "a bone such as `!palm(s)`", (Kind.BONE,))
+_SITE = Operand("site", "such as `@I_TIP(s)`", (Kind.SITE,))
+_POINT = Operand("point", "a point", (Kind.POINT,))
+_BONE = Operand("bone", "such as `!palm(s)`", (Kind.BONE,))
 _VECTOR = Operand("vector", "a vector", (Kind.VECTOR,))
 _AXIS = Operand("axis", "a vector", (Kind.VECTOR,))
 
@@ -283,6 +284,7 @@ OPERATORS = (
         (_BONE, _AXIS, Operand("angle", "degrees", (Kind.NUMBER,))),
         _rotate,
         "rotate !head ^right 10",
+        only_name_published=True,
     ),
     _native(
         "transpath",

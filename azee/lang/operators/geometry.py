@@ -46,11 +46,11 @@ def _vector(name: str = "vector", meaning: str = "a vector") -> Operand:
     return Operand(name, meaning, (Kind.VECTOR,))
 
 
-def _point(name: str = "point", meaning: str = "a point or a site") -> Operand:
+def _point(name: str = "point", meaning: str = "a point") -> Operand:
     return Operand(name, meaning, (Kind.POINT,))
 
 
-_BONE = Operand("bone", "a bone such as `!palm(s)`", (Kind.BONE,))
+_BONE = Operand("bone", "such as `!palm(s)`", (Kind.BONE,))
 _SIDE = Operand("side", "s, w, L or R", (Kind.SIDE,))
 
 
@@ -156,6 +156,7 @@ def _native(
     function: Callable[..., Any],
     example: str,
     published: bool = False,
+    only_name_published: bool = False,
 ) -> Native:
     return Native(
         name,
@@ -166,6 +167,7 @@ def _native(
         function=function,
         example=example,
         published=published,
+        only_name_published=only_name_published,
     )
 
 
@@ -176,7 +178,15 @@ _XYZ = (
 )
 
 OPERATORS = (
-    _native("vec", "A vector in the signer's frame.", _XYZ, Kind.VECTOR, _vec, "vec 0 .1 0", True),
+    _native(
+        "vec",
+        "A vector in the signer's frame.",
+        _XYZ,
+        Kind.VECTOR,
+        _vec,
+        "vec 0 .1 0",
+        only_name_published=True,
+    ),
     _native(
         "dir",
         "The direction of a bone in the posture, from its proximal to its distal end.",
@@ -232,7 +242,7 @@ OPERATORS = (
     _native(
         "vsum",
         "The sum of vectors.",
-        (Operand("vector", "vectors", (Kind.VECTOR,), rest=True, least=1),),
+        (Operand("vector", "a vector", (Kind.VECTOR,), rest=True, least=1),),
         Kind.VECTOR,
         _vsum,
         "vsum ^up ^fwd",
@@ -339,7 +349,7 @@ OPERATORS = (
         Kind.PATH,
         _arc,
         "arc-vect vec(0, .05, 0)",
-        True,
+        only_name_published=True,
     ),
     _native(
         "circle",
@@ -356,7 +366,7 @@ OPERATORS = (
     _native(
         "through",
         "A centripetal Catmull–Rom curve through points.",
-        (Operand("point", "points or sites", (Kind.POINT,), rest=True, least=1),),
+        (Operand("point", "a point", (Kind.POINT,), rest=True, least=1),),
         Kind.PATH,
         _through,
         "through ^Rssp ^Mssp ^Lssp",

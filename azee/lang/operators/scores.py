@@ -115,6 +115,7 @@ def _native(
     *,
     options: tuple[Option, ...] = (),
     published: bool = False,
+    only_name_published: bool = False,
     result: Kind = Kind.SCORE,
     uses_machine: bool = False,
 ) -> Native:
@@ -124,11 +125,12 @@ def _native(
         meaning,
         operands,
         options,
-        result,
-        published,
-        example,
-        function,
-        uses_machine,
+        result=result,
+        published=published,
+        only_name_published=only_name_published,
+        example=example,
+        function=function,
+        uses_machine=uses_machine,
     )
 
 
@@ -160,7 +162,7 @@ OPERATORS = (
                 Operand("channels", "names of channels", (Kind.LIST, Kind.SYMBOL), raw=True),
             ),
         ),
-        published=True,
+        only_name_published=True,
     ),
     _native("blank", "Nothing is asked for.", (_DURATION,), _blank, "blank .5"),
     _native(

@@ -50,27 +50,28 @@ class Diagnosis:
             return "its direction is undefined: a vector in it has no length"
         if isinstance(constraint, Morph):
             return self._morph(i, constraint)
+        held = self._free([i], everything=True) & self.firm.options.fixed
+        if held and not self._free([i]):
+            return "the coordinates that could meet it are held fixed"
         alone = self._alone(self.ghost, [i])
         if not alone.missed():
             return self._others(i)
+        if held and not self._alone(self.ghost, [i], everything=True).missed():
+            bones = sorted({self.firm.anatomy.names[v].split(".")[0] for v in held})
+            return f"needs {describe.sentence(bones)}, held fixed"
         left = alone.ratios[i] * self.firm.options.tolerance.of(constraint)
         if self._beyond_reach(i) > self.firm.options.tolerance.of(constraint):
             return f"out of reach by {_size(constraint, left)}"
         stopped = self._limits(i, alone)
         if stopped:
             return f"limit of {describe.sentence(stopped)}"
-        fixed = self._free([i], everything=True) & self.firm.options.fixed
-        if fixed:
-            return "the coordinates that could meet it are held fixed"
         return f"out of reach by {_size(constraint, left)}"
 
     # One constraint alone ---------------------------------------------------------------------
 
-    def _alone(self, body: Body, indices: Iterable[int]) -> Result:
+    def _alone(self, body: Body, indices: Iterable[int], *, everything: bool = False) -> Result:
         chosen = {k: self.demands[k] for k in indices}
-        free = self._free(chosen)
-        if not free:
-            free = self._free(chosen, everything=True)
+        free = self._free(chosen, everything=everything)
         return solve_group(body, chosen, self.q, free, first=[self.q])
 
     def _free(self, indices: Iterable[int], *, everything: bool = False) -> frozenset[int]:

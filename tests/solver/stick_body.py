@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import lru_cache
-from types import SimpleNamespace
-from typing import cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -120,7 +119,7 @@ def stick_body() -> Rig:
         "Lssp": np.array([0.25, 1.2, 0.3]),
         "addressee": np.array([0.0, 1.6, 2.0]),
     }
-    rig = SimpleNamespace(
+    given = dict[str, Any](
         name="sticks",
         chain=chain,
         coordinates=coordinates,
@@ -137,7 +136,8 @@ def stick_body() -> Rig:
         },
         face_morphs={"smile": {"mouthSmile": 1.0}},
     )
-    return cast(Rig, rig)
+    # What only skin needs is not there.
+    return Rig(**{f.name: given.get(f.name) for f in fields(Rig)})
 
 
 def _arm(b: _Builder, side: str, s: float) -> None:
@@ -193,7 +193,8 @@ def _sites(chain: Chain) -> dict[str, RigSite]:
 
     def add(name: str, node: str, position: list[float], normal: list[float]) -> None:
         place, out = np.array(position), np.array(normal)
-        sites[name] = RigSite(name, node, chain.names.index(node), place, out)
+        bone = "back_2" if node == "spine_3" else node
+        sites[name] = RigSite(name, bone, chain.names.index(node), place, out)
 
     add("CH", "head", [0.0, 0.0, 0.1], [0.0, 0.0, 1.0])
     add("FH", "head", [0.0, 0.14, 0.1], [0.0, 0.0, 1.0])

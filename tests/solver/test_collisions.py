@@ -1,0 +1,124 @@
+"""Distances of capsules, which pairs count, and where touching is meant."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from stick_body import stick_body
+from tree_sign import S, W
+
+from azee_solver.anatomy import anatomy
+from azee_solver.binding import Binding
+from azee_solver.collisions import Obstacles, segment_distance
+from azee_solver.constraint import Constraint, Place
+from azee_solver.geometry import FreePoint, Side, Site, SitePoint
+from azee_solver.winding import distances, winding_numbers
+
+RIG = stick_body()
+BODY = anatomy(RIG.chain, RIG.coordinates)
+
+
+def obstacles(*constraints: Constraint) -> Obstacles:
+    return Obstacles(Binding(RIG, Side.RIGHT), BODY, constraints)
+
+
+def pair(these: Obstacles, first: str, second: str) -> int:
+    names = RIG.capsules.names
+    wanted = {names.index(first), names.index(second)}
+    return next(n for n, (i, j) in enumerate(these.pairs) if {int(i), int(j)} == wanted)
+
+
+coordinate = st.floats(-1, 1).map(lambda x: round(x, 2))
+ends = st.lists(st.tuples(coordinate, coordinate, coordinate), min_size=4, max_size=4)
+
+
+@given(ends)
+def test_segments_are_as_near_as_their_nearest_samples(
+    four: list[tuple[float, float, float]],
+) -> None:
+    p0, p1, q0, q1 = (np.array([e]) for e in four)
+    t = np.linspace(0, 1, 60)[:, None]
+    first, second = p0 + t * (p1 - p0), q0 + t * (q1 - q0)
+    sampled = np.linalg.norm(first[:, None] - second[None], axis=-1).min()
+    exact = segment_distance(p0, p1, q0, q1)[0]
+    assert exact <= sampled + 1e-9
+    assert sampled <= exact + 0.06
+
+
+def free(*prefixes: str) -> list[int]:
+    return [v for v, n in enumerate(RIG.coordinates.names) if n.startswith(prefixes)]
+
+
+def test_only_pairs_that_move_against_each_other_count() -> None:
+    these = obstacles()
+    wrist = these.for_problem(free("palm_R"), [])
+    names = np.array(RIG.capsules.names)[wrist.pairs]
+    assert all("hand_R" in row for row in names)
+    lean = these.for_problem(free("back_2"), [])
+    assert any(
+        {"fore_R", "trunk_1"} == set(row) for row in np.array(RIG.capsules.names)[lean.pairs]
+    )
+
+
+def test_what_a_later_problem_will_move_is_not_yet_in_the_way() -> None:
+    these = obstacles()
+    now = these.for_problem(free("arm_R", "f_arm_R"), free("arm_L", "f_arm_L", "palm_R"))
+    rows = [set(row) for row in np.array(RIG.capsules.names)[now.pairs]]
+    assert {"fore_R", "fore_L"} not in rows
+    assert {"hand_R", "trunk_1"} in rows  # it is carried along, whatever its wrist will do
+
+
+def test_a_meant_contact_allows_what_the_capsules_stand_out() -> None:
+    plain = obstacles()
+    n = pair(plain, "upper_R", "hand_L")
+    placed = obstacles(Place(Site("EL", S), SitePoint(Site("PA", W))))
+    called = obstacles(Place(Site("EL", S), SitePoint(Site("PA", W)), contact=True))
+    # The palm's site is .02 from its axis, inside a capsule of radius .03.
+    assert plain.reach[n] - placed.reach[n] == pytest.approx(0.01 + 0.002)
+    assert plain.reach[n] - called.reach[n] == pytest.approx(0.01 + 0.009)
+    other = pair(plain, "hand_R", "trunk_1")
+    assert plain.reach[other] == placed.reach[other] == called.reach[other]
+
+
+def test_two_sites_at_one_place_are_meant_to_touch() -> None:
+    point = FreePoint(0.0, -0.2, 0.3)
+    met = obstacles(Place(Site("PA", S), point), Place(Site("PA", W), point))
+    n = pair(met, "hand_R", "hand_L")
+    assert obstacles().reach[n] - met.reach[n] == pytest.approx(0.02 + 0.002)
+    apart = obstacles(Place(Site("PA", S), point, 0.1), Place(Site("PA", W), point))
+    assert apart.reach[n] == obstacles().reach[n]
+
+
+def test_overlaps_are_reported_deepest_first() -> None:
+    q = np.array(RIG.coordinates.idle)
+    q[RIG.coordinates.index["f_arm_R.flexion"]] = np.radians(120)
+    q[RIG.coordinates.index["arm_R.rotation"]] = np.radians(90)
+    q[RIG.coordinates.index["arm_R.flexion"]] = np.radians(-10)
+    found = obstacles().overlaps(RIG.chain.frames(q))
+    assert found[0].depth_m > 0.01
+    assert {found[0].first, found[0].second} & {"fore_R", "hand_R"}
+    depths = [o.depth_m for o in found]
+    assert depths == sorted(depths, reverse=True)
+
+
+CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=np.float64)
+QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+CUBE = CORNERS[[t for a, b, c, d in QUADS for t in ((a, b, c), (a, c, d))]]
+
+
+def test_winding_numbers_tell_inside_from_outside_even_of_an_open_box() -> None:
+    points = np.array([[0.5, 0.5, 0.5], [0.1, 0.9, 0.2], [1.5, 0.5, 0.5], [-0.2, 0.1, 0.1]])
+    np.testing.assert_allclose(winding_numbers(points, CUBE), [1, 1, 0, 0], atol=1e-9)
+    open_box = CUBE[2:]
+    assert winding_numbers(points[:1], open_box)[0] > 0.7
+
+
+@given(st.tuples(coordinate, coordinate, coordinate))
+def test_distance_to_a_cube(point: tuple[float, float, float]) -> None:
+    p = 2 * np.array([point])
+    outside = np.linalg.norm(p - np.clip(p, 0, 1))
+    inside = min(np.minimum(p, 1 - p).min(), 1.0)
+    wanted = outside if outside > 0 else inside
+    assert distances(p, CUBE)[0] == pytest.approx(wanted, abs=1e-12)

@@ -47,9 +47,11 @@ def limbs_asked(bounds: Iterable[Bound]) -> frozenset[str]:
 class Poser:
     """The state of a body as keyframes are solved in order of time.
 
-    A limb is drawn to where it was while a block that constrains it goes on, else to idle, so that
-    no sign inherits an odd elbow from the one before. A limb that nothing has needed for longer
-    than `GO_ON_S` is taken to have gone to rest.
+    What constraints leave open is drawn to idle, never to the posture before: a trunk that gave
+    way a little at each of many keyframes would end at its limits. The search starts from the
+    posture before only in limbs that one block goes on constraining, so that no sign inherits an
+    odd elbow from the last. A limb that nothing has needed for longer than `GO_ON_S` is taken to
+    have gone to rest.
     """
 
     coordinates: Coordinates
@@ -73,21 +75,17 @@ class Poser:
         current = self._rested(time)
         last = self.last
         if last is not None and _nothing_new(demands, last):
-            indices = [v for limb in asked for v in self.limbs.members[limb]]
+            keyed = asked | (last.limbs if set(demands) == set(last.demands) else frozenset())
+            indices = [v for limb in keyed for v in self.limbs.members[limb]]
             if np.array_equal(current[indices], last.coordinates[indices]):
                 return KeyPosture(
-                    time, current, asked, passing, tuple(bounds), demands, last.report,
+                    time, current, keyed, passing, tuple(bounds), demands, last.report,
                     origin, reused=True,
                 )  # fmt: skip
         going_on = self._going_on(time, bounds)
-        constrained = frozenset[str]().union(*(b.limbs for b in bounds))
-        anew = [n in constrained and n not in going_on for n in self.limbs.names]
-        reference = np.where(
-            np.array(anew)[self.limbs.of_coordinate], self.coordinates.idle, current
-        )
-        named = [v for b in bounds for v in b.moves]
-        start = reference.copy()
-        start[named] = current[named]
+        constrained = frozenset[str]().union(*(b.limbs for b in bounds)) | self._carried(bounds)
+        reference = np.where(self._of(constrained), self.coordinates.idle, current)
+        start = np.where(self._of(going_on), current, reference)
         report = self.solver(demands, start=start, reference=reference)
         keyed = keyed_limbs(bounds, report.coordinates - reference, self.limbs)
         return KeyPosture(
@@ -114,6 +112,15 @@ class Poser:
             if needed is None or (time - needed > GO_ON_S and not busy):
                 out[members] = self.coordinates.idle[members]
         return out
+
+    def _of(self, limbs: frozenset[str]) -> NDArray[np.bool_]:
+        """(V,) which coordinates belong to some limbs."""
+        chosen: NDArray[np.bool_] = np.array([n in limbs for n in self.limbs.names])
+        return chosen[self.limbs.of_coordinate]
+
+    def _carried(self, bounds: Iterable[Bound]) -> frozenset[str]:
+        """The trunk, where a limb that may lean on it is placed, and the head that it carries."""
+        return frozenset(("trunk", "head")) if any(b.limbs for b in bounds) else frozenset()
 
     def _going_on(self, time: Fraction, bounds: Iterable[Bound]) -> frozenset[str]:
         """Limbs that one block constrains both at the last posture and now."""

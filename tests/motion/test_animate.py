@@ -39,6 +39,7 @@ from azee_solver.geometry import (
     Opp,
     Out,
     Path,
+    Scale,
     Side,
     SigningSpace,
     Site,
@@ -326,6 +327,8 @@ def test_a_trill_swings_as_often_and_as_far_as_it_says_and_fades() -> None:
     crossings = np.count_nonzero(np.diff(np.sign(inside[np.abs(inside) > 1e-4])))
     assert crossings == pytest.approx(2 * 4.0 * 0.71, abs=1.1)
     assert np.abs(swing[frame_at(animation, 0.0)]).max() < 1e-9
+    rising = swing[frame_at(animation, 0.0) : frame_at(animation, 0.06), column]
+    assert np.abs(rising).max() < math.radians(5)
     assert np.abs(swing[frame_at(animation, 1.0)]).max() < 1e-9
 
 
@@ -375,6 +378,10 @@ def test_life_is_seeded_low_and_keeps_off_what_the_score_constrains() -> None:
     assert np.abs(lively.clip.coordinates - still.clip.coordinates).max() < math.radians(1)
     shown = dict(zip(lively.clip.units, lively.clip.unit_weights[inside].T, strict=True))
     assert not np.any(shown.get("eyeBlinkLeft", np.zeros(1)))
+    stare = animate(sync(block("FACE", "0", "30", Morph("AU1", None, 0.7))), rig(), seed=5)
+    during = stare.clip.unit_weights[frame_at(stare, 0.0) : frame_at(stare, 30.0) + 1]
+    shown = dict(zip(stare.clip.units, during.T, strict=True))
+    assert not np.any(shown.get("eyeBlinkLeft", np.zeros(1)))
     quiet = animate(sync(block("PAUSE", "0", "20")), rig(), seed=5)
     assert quiet.clip.unit_weights.max() > 0.9
     assert np.ptp(quiet.clip.coordinates, axis=0).max() > math.radians(0.2)
@@ -403,6 +410,15 @@ def test_what_cannot_be_reached_is_reported_and_not_an_exception() -> None:
     assert far.reason
     assert far.residual is not None
     assert far.residual > 1
+
+
+def test_a_direction_that_is_none_is_reported_without_a_number() -> None:
+    nowhere = Orient(BoneAxis.DIR, Bone("palm", S), Relation.ALONG, Scale(UP, 0.0))
+    animation = played(sync(block("NONE", "0", ".5", nowhere)))
+    (result,) = animation.report.constraints
+    assert (result.met, result.residual) == (False, None)
+    assert result.reason
+    json.dumps(animation.report.as_json(), allow_nan=False)
 
 
 def test_an_empty_score_is_a_signer_at_rest() -> None:

@@ -38,7 +38,7 @@ def test_a_short_block_is_a_bell_with_its_apex_in_the_middle() -> None:
 
 
 def test_a_block_of_no_length_still_reaches_its_weight() -> None:
-    assert curve(("1", "1", 1.0), at=[0.95, 1, 1.05]) == [0, 1, 0]
+    assert curve(("1", "1", 1.0), at=[0.95, 0.975, 1, 1.025, 1.05]) == [0, 0.5, 1, 0.5, 0]
 
 
 def test_a_hold_goes_on_without_a_dip() -> None:

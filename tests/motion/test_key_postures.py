@@ -1,0 +1,249 @@
+"""What the solver is asked for, told by a solver that only writes it down."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from azee.motion.animate import Animation, animate
+from azee.motion.posture import Origin, Search
+from azee.motion.transpath import deferred, travels
+from azee.score.interval import Interval
+from azee.score.score import Block, Group, Hold, Key, Score
+from azee_rig.load import load_rig
+from azee_rig.rig import Rig
+from azee_solver.constraint import Constraint, LookAt, Morph, Place, Rotate, Transpath
+from azee_solver.demand import Demand
+from azee_solver.geometry import (
+    Bone,
+    FreePoint,
+    Moving,
+    NamedPoint,
+    Side,
+    SigningSpace,
+    Site,
+    Straight,
+    Vec,
+    WorldPoint,
+)
+from azee_solver.report import ConstraintReport, SolveReport
+
+F = Fraction
+S = Side.STRONG
+MIDDLE, RIGHT = NamedPoint(SigningSpace.MSSP), NamedPoint(SigningSpace.RSSP)
+TIP, WEAK_TIP = Site("I_TIP", S), Site("I_TIP", Side.WEAK)
+HERE, THERE = Place(TIP, MIDDLE), Place(TIP, RIGHT)
+NOD = Rotate(Bone("head"), Vec(1, 0, 0), 0.1)
+
+
+@cache
+def rig() -> Rig:
+    return load_rig()
+
+
+@dataclass
+class Asked:
+    constraints: tuple[Constraint, ...]
+    start: NDArray[np.float64]
+    reference: NDArray[np.float64]
+    search: Search
+    fixed: frozenset[int]
+
+
+@dataclass
+class Recorder:
+    """Says that it meets what `can` says, and moves the right shoulder a little further each time.
+
+    It never moves what is fixed.
+    """
+
+    can: Callable[[Sequence[Constraint]], bool] = lambda _: True
+    asked: list[Asked] = field(default_factory=list)
+
+    def __call__(
+        self,
+        demands: Sequence[Demand],
+        *,
+        start: NDArray[np.float64],
+        reference: NDArray[np.float64],
+        search: Search = Search.WIDE,
+        fixed: frozenset[int] = frozenset(),
+    ) -> SolveReport:
+        constraints = tuple(d.constraint for d in demands)
+        self.asked.append(Asked(constraints, start, reference, search, fixed))
+        q = np.array(reference)
+        q[rig().coordinates.index["arm_R.flexion"]] += 0.2
+        q[rig().coordinates.index["back_2.flexion"]] += 0.1
+        q = np.clip(q, rig().coordinates.lower, rig().coordinates.upper)
+        q[[*fixed]] = start[[*fixed]]
+        met = self.can(constraints)
+        reports = tuple(
+            ConstraintReport(d, "", "", 0.0 if met else 1.0, "m", 1e-3, met, None if met else "no")
+            for d in demands
+        )
+        return SolveReport(q, (), reports, (), 1, 0.0, frozenset())
+
+    def placed(self) -> list[list[object]]:
+        """The points where the strong index tip was asked to be, per solve."""
+        return [
+            [c.point for c in a.constraints if isinstance(c, Place) and c.site == TIP]
+            for a in self.asked
+        ]
+
+
+def block(name: str, start: str, length: str, *constraints: Constraint) -> Block:
+    span = Interval(F(start), F(start) + F(length))
+    return Block(name, span, Key(F(length), constraints=constraints))
+
+
+def sync(*blocks: Block) -> Group:
+    return Group(max(b.interval_in_parent.end for b in blocks), blocks=blocks)
+
+
+def play(score: Score, solver: Recorder) -> Animation:
+    return animate(score, rig(), solver=solver, fps=10, life=False)
+
+
+def boundaries(solver: Recorder) -> list[Asked]:
+    return [a for a in solver.asked if a.search is Search.WIDE]
+
+
+def test_what_contradicts_is_never_asked_of_one_posture() -> None:
+    solver = Recorder()
+    animation = play(sync(block("A", "0", "1", HERE), block("B", "1", "1", THERE)), solver)
+    assert [MIDDLE, RIGHT] not in solver.placed()
+    assert [p.origin for p in animation.report.postures][:3] == [
+        Origin.BOUNDARY, Origin.EARLY_END, Origin.BOUNDARY,
+    ]  # fmt: skip
+
+
+def test_what_no_posture_can_join_parts_and_the_later_block_has_the_instant() -> None:
+    def can(constraints: Sequence[Constraint]) -> bool:
+        return not (HERE in constraints and Place(Site("T_TIP", S), RIGHT) in constraints)
+
+    solver = Recorder(can)
+    later = Place(Site("T_TIP", S), RIGHT)
+    animation = play(sync(block("A", "0", "1", HERE), block("B", "1", "1", later)), solver)
+    at_one = [p for p in animation.report.postures if p.time == 1]
+    assert [[d.constraint for d in p.demands] for p in at_one] == [[later]]
+    early = [p for p in animation.report.postures if p.origin is Origin.EARLY_END]
+    assert [[d.constraint for d in p.demands] for p in early] == [[HERE]]
+    assert F(1, 2) <= early[0].time < 1
+
+
+def test_what_one_posture_can_join_is_asked_of_one() -> None:
+    solver = Recorder()
+    later = Place(Site("T_TIP", S), RIGHT)
+    animation = play(sync(block("A", "0", "1", HERE), block("B", "1", "1", later)), solver)
+    (at_one,) = [p for p in animation.report.postures if p.time == 1]
+    assert {d.constraint for d in at_one.demands} == {HERE, later}
+
+
+def test_a_block_of_no_length_cannot_give_way() -> None:
+    solver = Recorder()
+    play(sync(block("A", "0", "0", HERE), block("B", "0", "1", THERE)), solver)
+    assert solver.placed()[0] == [MIDDLE, RIGHT]
+
+
+def test_a_constraint_that_two_blocks_repeat_is_asked_once() -> None:
+    solver = Recorder()
+    fist = Morph("index_bend", S, 1.0)
+    hold = Block("H", Interval(F(1), F(2)), Hold(F(1), block="A"))
+    play(sync(block("A", "0", "1", fist), hold, block("B", "0", "2", fist)), solver)
+    assert all(a.constraints == (fist,) for a in solver.asked)
+
+
+def test_fewer_of_the_same_demands_need_no_solve() -> None:
+    solver = Recorder()
+    animation = play(sync(block("A", "0", "2", HERE), block("B", "0", "1", NOD)), solver)
+    assert len(boundaries(solver)) == 1
+    assert [p.reused for p in animation.report.postures if p.origin is Origin.BOUNDARY] == [
+        False, True, True,
+    ]  # fmt: skip
+
+
+def test_what_is_open_is_drawn_to_idle_and_a_block_that_lasts_is_where_the_search_starts() -> None:
+    solver = Recorder()
+    idle = rig().coordinates.idle
+    flexion = rig().coordinates.index["arm_R.flexion"]
+    play(
+        sync(block("A", "0", ".5", HERE), block("B", ".7", "1", THERE), block("C", "1", ".3", NOD)),
+        solver,
+    )
+    a, b, c = boundaries(solver)[:3]
+    assert all(asked.reference == pytest.approx(idle) for asked in (a, b, c))
+    assert [asked.start[flexion] - idle[flexion] for asked in (a, b, c)] == pytest.approx(
+        [0.0, 0.0, 0.2]
+    )
+
+
+def test_a_gaze_that_lasts_does_not_keep_the_trunk_bent() -> None:
+    solver = Recorder()
+    bend = rig().coordinates.index["back_2.flexion"]
+    gaze = LookAt(FreePoint(0, 0, 2))
+    play(
+        sync(block("A", "0", ".5", HERE), block("B", ".7", "1", THERE), block("G", "0", "2", gaze)),
+        solver,
+    )
+    second = next(a for a in boundaries(solver) if THERE in a.constraints)
+    assert second.reference[bend] == pytest.approx(rig().coordinates.idle[bend])
+
+
+def test_a_limb_long_unused_has_gone_to_rest() -> None:
+    solver = Recorder()
+    weak = Place(WEAK_TIP, MIDDLE)
+    play(sync(block("A", "0", ".5", HERE), block("B", "3", "1", weak)), solver)
+    second = boundaries(solver)[1]
+    assert second.constraints == (weak,)
+    assert second.start == pytest.approx(rig().coordinates.idle)
+
+
+def test_on_the_way_the_trunk_keeps_its_curve_and_only_the_near_is_searched() -> None:
+    solver = Recorder()
+    path = Transpath(TIP, Straight())
+    animation = play(
+        sync(block("A", "0", ".5", HERE), block("P", ".5", "1", path),
+             block("B", "1.5", ".5", THERE)),
+        solver,
+    )  # fmt: skip
+    on_the_way = [a for a in solver.asked if a.search is Search.NEAR]
+    trunk = {i for i, n in enumerate(rig().coordinates.names) if n.startswith("back_")}
+    assert on_the_way
+    assert all(a.fixed == trunk for a in on_the_way)
+    assert all(isinstance(p, WorldPoint) for points in solver.placed()[2:] for p in points)
+    assert Origin.PATH in [p.origin for p in animation.report.postures]
+
+
+def test_a_moving_point_is_sampled_on_its_way() -> None:
+    solver = Recorder()
+    moving = Place(TIP, Moving(Straight(), MIDDLE, RIGHT))
+    animation = play(sync(block("A", "0", "1", moving)), solver)
+    samples = [p for p in animation.report.postures if p.origin is Origin.PATH]
+    assert len(samples) > 1
+    assert all(0 < d.phase < 1 for p in samples for d in p.demands)
+
+
+def test_a_key_that_ends_one_path_is_solved_first_though_it_lies_on_another() -> None:
+    from azee.motion.bound import bind
+    from azee.motion.flatten import flatten
+    from azee.motion.limbs import Limbs
+    from azee_solver.binding import Binding
+
+    score = sync(
+        block("A", "0", ".2", HERE),
+        block("P", ".2", ".6", Transpath(TIP, Straight())),
+        block("B", ".8", ".2", THERE),
+        block("WA", "0", ".4", Place(WEAK_TIP, MIDDLE)),
+        block("WP", ".4", ".5", Transpath(WEAK_TIP, Straight())),
+        block("WB", ".9", ".1", Place(WEAK_TIP, RIGHT)),
+    )
+    bound = bind(flatten(score), rig(), Binding(rig(), Side.RIGHT), Limbs.of(rig().coordinates))
+    known = travels(bound, Side.RIGHT)
+    assert deferred(known, (k.time for k in bound.timeline.keyframes)) == frozenset()
+    assert {F("0.4"), F("0.8")} <= {p.time for p in play(score, Recorder()).report.postures}

@@ -55,7 +55,7 @@ class LayoutReader:
         self._levels: list[str] = []  # prefixes of the enclosing lines; empty outside of items
         self._open: list[int] = []  # indices of the tokens of unclosed parentheses
         self._named: set[int] = set()  # those of them in which an argument's name was last read
-        self._line = 0  # index of the first token of the line being read
+        self._wrong = False  # whether the line being read has a mistake that hides its shape
         self._skipping = False
 
     def items(self) -> Iterator[Item]:
@@ -73,6 +73,8 @@ class LayoutReader:
                 continue
             elif self._open or self._placed(prefix, start, first):
                 self._read(first, end)
+            if self._words.left < 0:
+                break
         yield from self._finish()
 
     def _lines(self) -> Iterator[tuple[int, int, int]]:
@@ -161,7 +163,7 @@ class LayoutReader:
         """Read one line, or one more line inside parentheses."""
         item = self._item
         if not self._open:
-            self._line = len(item.tokens)
+            self._wrong = False
         if not item.tokens and _DEF.match(self._text, first, end):
             tokens = self._words.definition(first, end)
         else:
@@ -179,6 +181,7 @@ class LayoutReader:
                 self._named.add(self._open[-1])
             elif token.kind == "_COMMA" and self._open:
                 self._named.discard(self._open[-1])
+            self._wrong = self._wrong or token.kind == BAD
             item.tokens.append(token)
         if not self._open:
             self._add("_NEWLINE", item.tokens[-1].end)
@@ -204,7 +207,7 @@ class LayoutReader:
         at = self._open[0]
         self._open = []
         self._named.clear()
-        if all(token.kind != BAD for token in tokens[self._line :]):
+        if not self._wrong:
             opened = tokens[at]
             inner = f", nor {'is' if count == 2 else 'are'} {count - 1} inside it"
             self._report(
@@ -246,14 +249,15 @@ class LayoutReader:
         return True
 
     def _stray(self, token: Token) -> Token:
-        self._report(
-            Diagnostic(
-                "syntax",
-                "this parenthesis closes nothing",
-                Span(self.source, token.start, token.end),
-                label="no `(` is open here",
+        if not self._wrong:
+            self._report(
+                Diagnostic(
+                    "syntax",
+                    "this parenthesis closes nothing",
+                    Span(self.source, token.start, token.end),
+                    label="no `(` is open here",
+                )
             )
-        )
         return token._replace(kind=BAD)
 
     def _add(self, kind: str, at: int) -> None:

@@ -125,6 +125,16 @@ def too_many_digits(span: Span, digits: int, most: int) -> Diagnostic:
     )
 
 
+def too_many_words(span: Span, most: int) -> Diagnostic:
+    """Answer the first word that is not read any more."""
+    return Diagnostic(
+        "size-limit",
+        f"this text has more than {most:,} words; the rest of it is not read",
+        span,
+        help="divide it into several files",
+    )
+
+
 def curly_apostrophe(span: Span) -> Diagnostic:
     """Answer `’word`."""
     return Diagnostic(

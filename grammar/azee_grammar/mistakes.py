@@ -38,9 +38,9 @@ class Mistakes:
         where an earlier mistake is likely to be the reason.
         """
         if self._tokens[0].kind == "DEF" and (found := self._in_definition(index, state)):
-            first = not self._frame_is_wrong
+            follows = self._frame_is_wrong and found.code == "syntax"
             self._frame_is_wrong = True
-            return found if first else None
+            return None if follows else found
         if self._tokens[0].kind == "USE":
             return self._in_use(index)
         token = self._tokens[index]
@@ -334,6 +334,15 @@ def more_than_one(span: Span) -> Diagnostic:
         "a second expression begins here, where only one is wanted",
         span,
         help="indent the line if it belongs to the expression above",
+    )
+
+
+def too_many(span: Span, most: int) -> Diagnostic:
+    """Answer a text that seems not to be AZee at all."""
+    return Diagnostic(
+        "size-limit",
+        f"this text has more than {most:,} mistakes; the rest of it is not read",
+        span,
     )
 
 

@@ -10,11 +10,20 @@ from azee_grammar.builder import Builder
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.layout import Item as Layout
 from azee_grammar.layout import LayoutReader
-from azee_grammar.mistakes import Mistakes, hole_outside_template, more_than_one, nothing_here
+from azee_grammar.mistakes import (
+    Mistakes,
+    hole_outside_template,
+    more_than_one,
+    nothing_here,
+    too_many,
+)
 from azee_grammar.source import Source, Span
 from azee_grammar.syntax import Definition, Expr, File, Item
 from azee_grammar.tables import State
 from azee_grammar.token import Token
+
+MOST_MISTAKES = 1000
+"""Reading a text stops there: what follows is unlikely to be AZee."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +49,10 @@ def parse(source: Source, *, template: bool = False) -> Parsed:
         diagnostics += found
         if item is not None:
             items.append(item)
+        if len(diagnostics) > MOST_MISTAKES:
+            next_one = diagnostics[MOST_MISTAKES].span or Span(source, 0, 0)
+            diagnostics[MOST_MISTAKES:] = [too_many(next_one, MOST_MISTAKES)]
+            break
     whole = Span(source, 0, len(source.text))
     comments = tuple(Span(source, start, end) for start, end in reader.comments)
     return Parsed(File(whole, tuple(items)), tuple(diagnostics), comments)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
+
+_LINE_END = re.compile(r"\r\n|\r|\n")
 
 
 @dataclass(frozen=True)
@@ -20,16 +23,7 @@ class Source:
     @cached_property
     def _line_starts(self) -> tuple[int, ...]:
         """Offsets of the first character of each line; LF, CRLF and CR end a line."""
-        starts = [0]
-        i, n = 0, len(self.text)
-        while i < n:
-            c = self.text[i]
-            if c == "\r" and i + 1 < n and self.text[i + 1] == "\n":
-                i += 1
-            if c in "\r\n":
-                starts.append(i + 1)
-            i += 1
-        return tuple(starts)
+        return (0, *(end.end() for end in _LINE_END.finditer(self.text)))
 
     @property
     def line_count(self) -> int:

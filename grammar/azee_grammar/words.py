@@ -11,6 +11,9 @@ from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.source import Source, Span
 from azee_grammar.token import BAD, Token
 
+MOST_WORDS = 200_000
+"""In one text. A translated news item has some two hundred."""
+
 MOST_DIGITS = 17
 """As many as tell any two float64 apart."""
 
@@ -50,6 +53,7 @@ class WordReader:
         self._report = report
         self._said = 0
         self.comments = comments
+        self.left = MOST_WORDS  # words that may still come
         self._foreign = False  # whether a bracket of another language was reported on this line
 
     def read(self, start: int, end: int) -> list[Token]:
@@ -82,6 +86,11 @@ class WordReader:
                 if self._said == said:
                     self._say(misspelt.missing_space(self._span(token.start, token.end)))
                 token = token._replace(kind=BAD)
+            self.left -= 1
+            if self.left < 0:
+                span = self._span(token.start, token.end)
+                self._say(misspelt.too_many_words(span, MOST_WORDS))
+                return [*tokens, token._replace(kind=BAD)]
             tokens.append(token)
             at = token.end
             spaced = False

@@ -28,7 +28,7 @@ _between = st.one_of(
 @st.composite
 def _operand(draw: st.DrawFn, depth: int) -> str:
     """What may stand behind a head on its line."""
-    kind = draw(st.integers(0, 3 if depth < 3 else 1))
+    kind = draw(st.integers(0, 3 if depth < 2 else 1))
     if kind == 0:
         return draw(st.one_of(_atoms, _symbols))
     if kind == 1:
@@ -39,7 +39,7 @@ def _operand(draw: st.DrawFn, depth: int) -> str:
 @st.composite
 def _complete(draw: st.DrawFn, depth: int) -> str:
     """What takes no further operands."""
-    kind = draw(st.integers(0, 2 if depth < 3 else 0))
+    kind = draw(st.integers(0, 2 if depth < 2 else 0))
     if kind == 0:
         return draw(_atoms)
     around = draw(_between)
@@ -76,7 +76,7 @@ def _lines(draw: st.DrawFn, depth: int, indent: str, *, row: bool) -> list[str]:
     gaps = [draw(_gaps) for _ in parts]
     text = "".join(part + gap for part, gap in zip(parts, gaps, strict=True))
     lines = [*above, indent + text + draw(_comments)]
-    if opens and depth < 3:
+    if opens and depth < 2:
         deeper = indent + draw(st.sampled_from((" ", "    ", "\t")))
         for _ in range(draw(st.integers(0, 3))):
             lines += draw(_lines(depth + 1, deeper, row=True))

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import case_notation as notation
 import pytest
 
-from azee_grammar import tables
+from azee_grammar import tables, words
 from azee_grammar.layout import DEEPEST
-from azee_grammar.parser import parse, parse_expression
+from azee_grammar.parser import MOST_MISTAKES, parse, parse_expression
 from azee_grammar.source import Source
 from azee_grammar.syntax import Application, Definition, Expr, Named, Utterance
 
@@ -80,6 +81,7 @@ def test_layout_makes_no_difference_to_equality() -> None:
     [
         "(" * 10_000,
         "f(" * 10_000,
+        "f('a = " * (DEEPEST // 2 + 1) + "1" + ")" * (DEEPEST // 2 + 1),
         "f('a = " * 10_000 + "1" + ")" * 10_000,
         "".join(f"{' ' * level}f\n" for level in range(1000)),
         "".join(f"{' ' * level}f((\n" for level in range(1000)),
@@ -201,3 +203,21 @@ def test_many_mistakes_are_each_reported_once() -> None:
             ("unclosed-paren", f"{line + 3}:8"),
         )
     ]
+
+
+def test_a_text_of_too_many_words_is_not_read_to_its_end(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(words, "MOST_WORDS", 1000)
+    text = f":first\n:second {'1 ' * 1000}\n:third\n"
+    parsed = parse(Source("t", text))
+    assert [notation.item(item) for item in parsed.file.items] == ["(:first)"]
+    assert [d.code for d in parsed.diagnostics] == ["size-limit"]
+    assert not parse(Source("t", f":first {'1 ' * 999}")).diagnostics
+
+
+def test_a_text_of_too_many_mistakes_is_not_read_to_its_end() -> None:
+    text = ":a )\n" * MOST_MISTAKES
+    assert len(parse(Source("t", text)).diagnostics) == MOST_MISTAKES
+    found = parse(Source("t", text * 3 + ":b\n")).diagnostics
+    assert [d.code for d in found] == ["syntax"] * MOST_MISTAKES + ["size-limit"]

@@ -13,13 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parent))
-
 from azee_rig.build.anatomy import SIDES, read_anatomy
 from azee_rig.build.capsules import fit_capsules
 from azee_rig.build.chain_builder import build_chain
 from azee_rig.build.coordinates import coordinate_names, read_coordinates
 from azee_rig.build.dress import dress
+from azee_rig.build.influences import sample_postures, with_four_influences
 from azee_rig.build.joints import build_joints
 from azee_rig.build.makehuman import check_wheel, read_body
 from azee_rig.build.morphs import read_face_morphs, read_lids, read_skeletal_morphs
@@ -110,8 +109,9 @@ def main(wheel: Path, folder: Path) -> None:
         lids=read_lids(DATA / "lids.json", units),
         folder=folder,
     )
+    poses = rig.pose(sample_postures(coordinates))
     folder.mkdir(parents=True, exist_ok=True)
-    write_mesh(folder / "mesh.npz", mesh)
+    write_mesh(folder / "mesh.npz", with_four_influences(mesh, made.skeleton, poses))
     write_rig(folder / "rig.json", rig)
 
 

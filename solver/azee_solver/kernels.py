@@ -66,9 +66,10 @@ MEET, AT_DISTANCE, PERPENDICULAR = range(3)
     VALUES,
     PULLS,
     ENDS,
+    DEEPEST,
     PULL_ON_Q,
     REALS_END,
-) = range(11, 31)
+) = range(11, 32)
 
 COMFORTABLE = 0.8
 """Part of a coordinate's range, about its middle, that costs nothing."""
@@ -272,9 +273,9 @@ def _nearest(ends, i, j):  # type: ignore[no-untyped-def]
 
 @njit
 def _collide(  # type: ignore[no-untyped-def]
-    weight, nodes, local, pairs, reach, positions, rotations, ends, forces, moments
+    weight, nodes, local, pairs, reach, positions, rotations, ends, deepest, forces, moments
 ):
-    """Sum of μ overlap² over the pairs of capsules, and its forces on their nodes."""
+    """Sum of μ overlap² over the pairs of capsules, the deepest, and its forces on their nodes."""
     for c in range(nodes.shape[0]):
         node = nodes[c]
         for i in range(3):
@@ -286,6 +287,7 @@ def _collide(  # type: ignore[no-untyped-def]
                     + rotations[node, i, 2] * local[c, 3 * end + 2]
                 )
     f = 0.0
+    deepest[0] = 0.0
     gap = np.empty(3)
     for n in range(pairs.shape[0]):
         i, j = pairs[n, 0], pairs[n, 1]
@@ -313,6 +315,7 @@ def _collide(  # type: ignore[no-untyped-def]
         if overlap <= 0.0:
             continue
         f += weight * overlap * overlap
+        deepest[0] = max(deepest[0], overlap)
         if distance <= SHORT:
             continue
         factor = -2.0 * weight * overlap / distance
@@ -414,6 +417,7 @@ def objective(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
         positions,
         rotations,
         _part(reals, ints, ENDS).reshape((nodes.shape[0], 6)),
+        _part(reals, ints, DEEPEST),
         forces,
         moments,
     )

@@ -76,9 +76,13 @@ class ProblemBuilder:
     def __init__(self, demands: Sequence[Demand], binding: Binding, anatomy: Anatomy) -> None:
         self.demands, self.binding, self.anatomy = demands, binding, anatomy
         self.footprints: dict[int, Footprint] = {}
+        self._movers: dict[int, frozenset[int]] = {}
+        self._affected: dict[int, frozenset[int]] = {}
         for i, demand in enumerate(demands):
             if isinstance(demand.constraint, Place | Orient | Look | LookAt | Rotate):
-                self.footprints[i] = footprint(demand.constraint, binding)
+                self.footprints[i] = found = footprint(demand.constraint, binding)
+                self._movers[i] = found.movers(anatomy)
+                self._affected[i] = found.affected(anatomy)
 
     @cached_property
     def _claimed(self) -> frozenset[int]:
@@ -86,12 +90,12 @@ class ProblemBuilder:
         constraints = [demand.constraint for demand in self.demands]
         presets = frozenset(self.binding.presets(constraints))
         turned = [i for i in self.footprints if self._role(i) is Orient]
-        return presets.union(*(self.footprints[i].movers(self.anatomy) for i in turned))
+        return presets.union(*(self._movers[i] for i in turned))
 
     @cached_property
     def _idle_arms(self) -> frozenset[int]:
         """Arm coordinates that no constraint can use: they yield when the trunk leans."""
-        used = frozenset().union(*(f.affected(self.anatomy) for f in self.footprints.values()))
+        used = frozenset().union(*self._affected.values())
         presets = self.binding.presets(demand.constraint for demand in self.demands)
         return self.anatomy.of(Part.ARM) - used - frozenset(presets)
 
@@ -154,8 +158,8 @@ class ProblemBuilder:
         return self._step(i, Reach.OWN)
 
     def _step(self, i: int, reach: Reach) -> frozenset[int]:
-        constraint, found = self.demands[i].constraint, self.footprints[i]
-        movers, affected = found.movers(self.anatomy), found.affected(self.anatomy)
+        constraint = self.demands[i].constraint
+        movers, affected = self._movers[i], self._affected[i]
         if isinstance(constraint, Look | LookAt):
             return movers & self.anatomy.of(Part.EYES, Part.HEAD)
         if reach is Reach.ALL:
@@ -199,6 +203,6 @@ class ProblemBuilder:
             tuple(indices),
             tuple(name for _, name in sorted(bones)),
             tuple(frozenset().union(*(self._step(i, reach) for i in indices)) for reach in Reach),
-            frozenset().union(*(self.footprints[i].affected(self.anatomy) for i in indices)),
+            frozenset().union(*(self._affected[i] for i in indices)),
             min(self.demands[i].order for i in indices),
         )

@@ -129,6 +129,7 @@ class Program:
             k.VALUES: np.zeros((entries, 3)),
             k.PULLS: np.zeros((entries, 3)),
             k.ENDS: np.zeros_like(ends),
+            k.DEEPEST: np.zeros(1),
             k.PULL_ON_Q: np.zeros(len(coordinates)),
         }
         header = np.empty(k.REALS_END + 1, dtype=np.int64)

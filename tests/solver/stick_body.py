@@ -119,25 +119,26 @@ def stick_body() -> Rig:
         "Lssp": np.array([0.25, 1.2, 0.3]),
         "addressee": np.array([0.0, 1.6, 2.0]),
     }
-    given = dict[str, Any](
-        name="sticks",
-        chain=chain,
-        coordinates=coordinates,
-        bones=bones,
-        sites=_sites(chain),
-        capsules=_capsules(chain),
-        landmarks=Landmarks(np.array([0.0, 1.45, 0.0]), 0.3, 0.25, 0.55, 0.5),
-        signing_space=places,
-        skeletal_morphs={
+    given: Any = {
+        "name": "sticks",
+        "chain": chain,
+        "coordinates": coordinates,
+        "bones": bones,
+        "sites": _sites(chain),
+        "capsules": _capsules(chain),
+        "landmarks": Landmarks(np.array([0.0, 1.45, 0.0]), 0.3, 0.25, 0.55, 0.5),
+        "signing_space": places,
+        "skeletal_morphs": {
             f"{f}_{kind}_{side}": {f"{f}_{side}_{k}.flexion": np.pi / 2}
             for f in FINGERS
             for kind, k in (("bend", 1), ("hook", 2))
             for side in "LR"
         },
-        face_morphs={"smile": {"mouthSmile": 1.0}},
-    )
+        "face_morphs": {"smile": {"mouthSmile": 1.0}},
+    }
     # What only skin needs is not there.
-    return Rig(**{f.name: given.get(f.name) for f in fields(Rig)})
+    everything: dict[str, Any] = {f.name: given.get(f.name) for f in fields(Rig)}
+    return Rig(**everything)
 
 
 def _arm(b: _Builder, side: str, s: float) -> None:
@@ -242,5 +243,5 @@ def _capsules(chain: Chain) -> Capsules:
         table[:, 3:],
         np.array(radii),
         np.array(pairs),
-        np.empty((0, 2)),
+        np.empty((0, 2), dtype=np.int64),
     )

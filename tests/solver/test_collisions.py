@@ -76,7 +76,7 @@ def test_a_meant_contact_allows_what_the_capsules_stand_out() -> None:
     placed = obstacles(Place(Site("EL", S), SitePoint(Site("PA", W))))
     called = obstacles(Place(Site("EL", S), SitePoint(Site("PA", W)), contact=True))
     # The palm's site is .02 from its axis, inside a capsule of radius .03.
-    assert plain.reach[n] - placed.reach[n] == pytest.approx(0.01 + 0.002)
+    assert plain.reach[n] - placed.reach[n] == pytest.approx(0.01 + 0.001)
     assert plain.reach[n] - called.reach[n] == pytest.approx(0.01 + 0.009)
     other = pair(plain, "hand_R", "trunk_1")
     assert plain.reach[other] == placed.reach[other] == called.reach[other]
@@ -86,7 +86,7 @@ def test_two_sites_at_one_place_are_meant_to_touch() -> None:
     point = FreePoint(0.0, -0.2, 0.3)
     met = obstacles(Place(Site("PA", S), point), Place(Site("PA", W), point))
     n = pair(met, "hand_R", "hand_L")
-    assert obstacles().reach[n] - met.reach[n] == pytest.approx(0.02 + 0.002)
+    assert obstacles().reach[n] - met.reach[n] == pytest.approx(0.02 + 0.001)
     apart = obstacles(Place(Site("PA", S), point, 0.1), Place(Site("PA", W), point))
     assert apart.reach[n] == obstacles().reach[n]
 

@@ -129,7 +129,7 @@ def test_geometry_follows_the_posture_for_many_postures_at_once() -> None:
     frames = RIG.chain.frames(many)
     dirs = RIGHT.vector(Dir(Bone("f_arm", S)), frames)
     h = math.sqrt(0.5)
-    np.testing.assert_allclose(dirs, [[0, -1, 0], [0, -h, h], [0, 0, 1]], atol=1e-12)
+    np.testing.assert_allclose(dirs, np.array([[0, -1, 0], [0, -h, h], [0, 0, 1]]), atol=1e-12)
     tip = RIGHT.point(VTranslate(SitePoint(Site("M_TIP", S)), UP), frames)
     assert tip.shape == (3, 3)
     assert RIGHT.vector(Cross(Dir(Bone("f_arm", S)), UP), frames).shape == (3, 3)

@@ -30,7 +30,7 @@ def test_straight_is_even() -> None:
 def test_an_arc_passes_its_apex_half_way_at_even_angles() -> None:
     t = np.linspace(0, 1, 9)
     curve = paths.arc(A, B, UP, t)
-    np.testing.assert_allclose(curve[[0, 4, 8]], [A, [1, 1, 0], B], atol=1e-12)
+    np.testing.assert_allclose(curve[[0, 4, 8]], np.array([A, [1, 1, 0], B]), atol=1e-12)
     assert np.ptp(steps(curve)) < 1e-12
     np.testing.assert_allclose(np.linalg.norm(curve - [1, 0, 0], axis=1), 1.0)
 

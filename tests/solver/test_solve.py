@@ -74,13 +74,8 @@ def value(report: SolveReport, name: str) -> float:
 
 def moved(report: SolveReport) -> set[str]:
     return {
-        RIG.coordinates.names[v].split(".")[0]
-        for v in np.flatnonzero(report.coordinates != np.clip(IDLE, *limits()))
+        RIG.coordinates.names[v].split(".")[0] for v in np.flatnonzero(report.coordinates != IDLE)
     }
-
-
-def limits() -> tuple[object, object]:
-    return RIG.coordinates.lower, RIG.coordinates.upper
 
 
 MET: dict[str, list[Constraint]] = {

@@ -1,0 +1,226 @@
+"""The signer that ships: the sign tree, touches of the face, both hands, and what stays apart."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tree_sign import DIR, NRM, UP, S, W, along, demands, straight_fingers, tree
+
+from azee_rig.rig import Rig
+from azee_solver.constraint import Constraint, Place
+from azee_solver.geometry import (
+    Bone,
+    FreePoint,
+    NamedPoint,
+    Opp,
+    Out,
+    Side,
+    SigningSpace,
+    Site,
+    SitePoint,
+    Vec,
+)
+from azee_solver.penetration import mesh_penetration
+from azee_solver.report import SolveReport
+from azee_solver.solve import solve
+
+MSSP = NamedPoint(SigningSpace.MSSP)
+DEEPEST_M = 3e-3
+
+
+def run(rig: Rig, *constraints: Constraint) -> SolveReport:
+    idle = rig.coordinates.idle
+    asked = demands(*constraints)
+    return solve(rig, asked, dominant=Side.RIGHT, start=idle, reference=idle)
+
+
+def missed(report: SolveReport) -> list[tuple[str, float, str | None]]:
+    return [(c.kind, c.residual, c.reason) for c in report.constraints if not c.met]
+
+
+def site(rig: Rig, report: SolveReport, name: str) -> NDArray[np.float64]:
+    frames, found = rig.chain.frames(report.coordinates), rig.sites[name]
+    return np.asarray(frames.positions[found.node] + frames.rotations[found.node] @ found.position)
+
+
+def axis(rig: Rig, report: SolveReport, bone: str, column: int) -> NDArray[np.float64]:
+    frames = rig.chain.frames(report.coordinates)
+    return np.asarray(frames.rotations[rig.bones[bone].node][:, column])
+
+
+def inside(rig: Rig, report: SolveReport) -> list[tuple[str, str, float]]:
+    """Arms and hands deep in trunk or head, on the posed skin."""
+    return [
+        (p.limb, p.body, p.depth_m)
+        for p in mesh_penetration(rig, report.coordinates)
+        if p.body in ("trunk", "head") and p.depth_m > DEEPEST_M
+    ]
+
+
+@pytest.fixture(scope="module")
+def planted(signer: Rig) -> SolveReport:
+    idle = signer.coordinates.idle
+    return solve(signer, tree(), dominant=Side.RIGHT, start=idle, reference=idle)
+
+
+def test_tree_meets_everything(signer: Rig, planted: SolveReport) -> None:
+    assert not missed(planted)
+    elbow, palm = site(signer, planted, "EL_R"), site(signer, planted, "PA_L")
+    assert np.linalg.norm(elbow - palm) < 1e-3
+    upright = axis(signer, planted, "f_arm_R", 1)[1]
+    assert math.degrees(math.acos(min(1.0, upright))) < 0.5
+
+
+def test_tree_is_eleven_problems_and_says_what_was_merged(planted: SolveReport) -> None:
+    names = [p.name for p in planted.problems]
+    assert len(names) == 11
+    assert names.index("place EL_R at PA_L") == 1
+    assert "H_BACK_L" in names[0]
+    assert planted.problems[2].merged_into == names[0]
+
+
+def test_tree_keeps_arms_out_of_the_body_and_the_head_level(
+    signer: Rig, planted: SolveReport
+) -> None:
+    assert not inside(signer, planted)
+    level = axis(signer, planted, "head", 1)[1]
+    assert math.degrees(math.acos(min(1.0, level))) < 3
+    # Beside the face, not in front of it.
+    assert site(signer, planted, "PA_R")[0] < site(signer, planted, "CK_R")[0]
+
+
+def test_the_published_thumb_misses_by_its_limits_and_nothing_else_does(signer: Rig) -> None:
+    idle = signer.coordinates.idle
+    report = solve(signer, tree(thumb=True), dominant=Side.RIGHT, start=idle, reference=idle)
+    assert len(report.problems) == 11
+    lost = missed(report)
+    assert [kind for kind, _, _ in lost] in ([], ["nrm of thumb_R_2"])
+    for _, residual, reason in lost:
+        assert math.degrees(residual) < 20
+        assert reason is not None
+        assert reason.startswith("conflicts with")
+
+
+@pytest.mark.parametrize("target", ["CH", "FH", "CK_R", "NO", "CK_L", "SH_L"])
+def test_a_fingertip_touches_face_and_shoulder(signer: Rig, target: str) -> None:
+    named = Site(target[:2], Side(target[3])) if target[2:] else Site(target)
+    report = run(signer, Place(Site("I_TIP", S), SitePoint(named), contact=True))
+    assert not missed(report)
+    assert not inside(signer, report)
+
+
+def test_a_straight_hand_touches_the_temple(signer: Rig) -> None:
+    report = run(
+        signer,
+        Place(Site("M_TIP", S), SitePoint(Site("FH", S)), contact=True),
+        along(NRM, Bone("palm", S), Vec(0.0, -1.0, 0.0)),
+        *straight_fingers(S),
+    )
+    assert not missed(report)
+    assert not inside(signer, report)
+
+
+def test_all_fingertips_meet(signer: Rig) -> None:
+    report = run(
+        signer,
+        Place(Site("M_TIP", S), MSSP),
+        *(
+            Place(Site(f"{f}_TIP", W), SitePoint(Site(f"{f}_TIP", S)), contact=True)
+            for f in "TIMRL"
+        ),
+    )
+    assert not missed(report)
+    for f in "TIMRL":
+        left, right = (site(signer, report, f"{f}_TIP_{side}") for side in "LR")
+        assert np.linalg.norm(left - right) < 1e-3
+    assert not inside(signer, report)
+
+
+def test_two_palms_face_each_other_at_a_distance(signer: Rig) -> None:
+    report = run(
+        signer,
+        Place(Site("PA", W), MSSP),
+        Place(Site("PA", S), SitePoint(Site("PA", W)), 0.1),
+        along(NRM, Bone("palm", W), Out(S)),
+        along(NRM, Bone("palm", S), Out(W)),
+        along(DIR, Bone("palm", S), UP),
+    )
+    assert not missed(report)
+    left, right = (site(signer, report, f"PA_{side}") for side in "LR")
+    assert np.linalg.norm(left - right) == pytest.approx(0.1, abs=1e-3)
+
+
+def test_every_limit_holds_to_the_bit(signer: Rig) -> None:
+    limits = signer.coordinates
+    for x in (-0.6, 0.0, 0.6):
+        for y in (-0.6, 0.4):
+            report = run(signer, Place(Site("I_TIP", S), FreePoint(x, y, 0.5)))
+            assert np.all(report.coordinates >= limits.lower)
+            assert np.all(report.coordinates <= limits.upper)
+
+
+def test_out_of_reach_is_the_nearest_posture_any_start_finds(signer: Rig) -> None:
+    idle = signer.coordinates.idle
+    asked = demands(Place(Site("I_TIP", S), FreePoint(-0.5, 0.3, 1.2)))
+    report = solve(signer, asked, dominant=Side.RIGHT, start=idle, reference=idle)
+    assert not report.met
+    reason = report.constraints[0].reason
+    assert reason is not None
+    assert reason.startswith("out of reach by")
+    for seed in range(4):
+        begin = np.random.default_rng(seed).uniform(
+            signer.coordinates.lower, signer.coordinates.upper
+        )
+        other = solve(signer, asked, dominant=Side.RIGHT, start=begin, reference=idle)
+        assert report.constraints[0].residual < other.constraints[0].residual + 0.5e-3
+
+
+def test_a_place_inside_the_chest_is_not_entered(signer: Rig) -> None:
+    report = run(
+        signer,
+        Place(Site("PA", S), FreePoint(0.0, -0.15, 0.04)),
+        along(DIR, Bone("back_2"), UP),
+        along(NRM, Bone("back_2"), Vec(0.0, 0.0, 1.0)),
+        along(NRM, Bone("palm", S), Opp(Vec(0.0, 0.0, 1.0))),
+    )
+    lost = missed(report)
+    assert lost
+    assert any("the body is in the way" in str(reason) for _, _, reason in lost)
+
+
+def fingerprint(report: SolveReport) -> str:
+    return hashlib.sha256(report.coordinates.tobytes()).hexdigest()
+
+
+def test_the_same_bytes_twice(signer: Rig, planted: SolveReport) -> None:
+    idle = signer.coordinates.idle
+    again = solve(signer, tree(), dominant=Side.RIGHT, start=idle, reference=idle)
+    assert fingerprint(again) == fingerprint(planted)
+
+
+@pytest.mark.slow
+def test_the_same_bytes_from_another_process(planted: SolveReport) -> None:
+    paths = [p for p in sys.path if p]
+    script = f"""
+import sys
+sys.path[:0] = {[str(Path(__file__).parent), *paths]!r}
+from azee_rig.load import load_rig
+from azee_solver.geometry import Side
+from azee_solver.solve import solve
+from test_signing_body import fingerprint
+from tree_sign import tree
+rig = load_rig()
+idle = rig.coordinates.idle
+print(fingerprint(solve(rig, tree(), dominant=Side.RIGHT, start=idle, reference=idle)))
+"""
+    run_ = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert run_.stdout.strip() == fingerprint(planted)

@@ -34,12 +34,14 @@ HEAVY = 5
 class Machine:
     """Evaluates within limits. One machine serves one utterance."""
 
-    __slots__ = ("depth", "limits", "steps")
+    __slots__ = ("_results", "depth", "limits", "steps")
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self.limits = limits
         self.steps = 0
         self.depth = 0
+        self._results: dict[Procedure, Value] = {}
+        """Of rules that were applied to no arguments: they always give the same."""
 
     def enter(self, steps: int, span: Span) -> int:
         """Spend steps and go one level deeper; return the level to come back to."""
@@ -88,6 +90,9 @@ class Machine:
         Raises: Fault: whatever goes wrong inside, with this call added to the rule call stack.
         """
         procedure = operator.procedure
+        plain = not (procedure.names or operator.bound or given)
+        if plain and procedure in self._results:
+            return _came_from(procedure, self._results[procedure], origin)
         names = dict[str, Value](procedure.names)
         known = {**operator.bound, **given}
         depth = self.depth
@@ -101,10 +106,17 @@ class Machine:
         except Fault as problem:
             self.depth = depth
             raise problem.through(operator.title, span) from None
-        if procedure.rule is not None and isinstance(value, ScoreValue):
-            score = came_from(value.content, Call(procedure.rule, origin))
-            return ScoreValue(score, value.size, value.depth)
+        if plain:
+            self._results[procedure] = value
+        return _came_from(procedure, value, origin)
+
+
+def _came_from(procedure: Procedure, value: Value, origin: Origin) -> Value:
+    """Note on a score that it is the result of a rule."""
+    if procedure.rule is None or not isinstance(value, ScoreValue):
         return value
+    score = came_from(value.content, Call(procedure.rule, origin))
+    return ScoreValue(score, value.size, value.depth)
 
 
 def operator_value(procedure: Procedure, bound: Mapping[str, Value]) -> OperatorValue:

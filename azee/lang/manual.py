@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from azee.lang.constants import CONSTANTS
 from azee.lang.native import Group, Native, Operand
 from azee.lang.registry import NATIVES
-from azee.lang.synchrony import RULES
+from azee.lang.sync_shape import RULES
 from azee.lang.values import Kind
 
 _HEAD = """# Operators and constants

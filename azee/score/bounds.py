@@ -5,7 +5,7 @@ The dependency graph is over bounds, not blocks: `A` may start with `B` while `B
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -105,7 +105,7 @@ class Bounds:
         if moment is None:
             other = (block, Bound.END if bound is Bound.START else Bound.START)
             return () if self._stands_at_zero(node) else (other,)
-        target = self._target(moment, block)
+        target = self._target(moment, node)
         if len(moment.path) == 1 and isinstance(moment.anchor, Bound):
             return ((target, moment.anchor),)
         return ((target, Bound.START), (target, Bound.END))
@@ -114,7 +114,7 @@ class Bounds:
         block, bound = node
         moment = self._moment(node)
         if moment is not None:
-            return self._time(moment, block)
+            return self._time(moment, node)
         if self._stands_at_zero(node):
             return Fraction(0)
         duration_s = self._placements[block].duration_s
@@ -131,20 +131,26 @@ class Bounds:
     def _stands_at_zero(self, node: _Node) -> bool:
         return node[1] is Bound.START and self._placements[node[0]].end is None
 
-    def _target(self, moment: Moment, block: int) -> int:
-        try:
-            return self._number[moment.path[0]]
-        except KeyError:
-            message = f"there is no block `{moment.path[0]}`"
-            raise LayoutError("unknown-block", message, block, tuple(self._names)) from None
+    def _target(self, moment: Moment, node: _Node) -> int:
+        """Return the number of the block that the moment of a bound names."""
+        name = moment.path[0]
+        if name not in self._number:
+            raise self._unknown(f"there is no block `{name}`", name, self._names, node)
+        return self._number[name]
 
-    def _time(self, moment: Moment, block: int) -> Fraction:
-        target = self._target(moment, block)
+    def _unknown(self, message: str, name: str, known: Iterable[str], node: _Node) -> LayoutError:
+        block, bound = node
+        return LayoutError(
+            "unknown-block", message, block, name=name, known=tuple(known), bound=bound
+        )
+
+    def _time(self, moment: Moment, node: _Node) -> Fraction:
+        target = self._target(moment, node)
         if len(moment.path) == 1 and isinstance(moment.anchor, Bound):
             return self._known[target, moment.anchor] + moment.offset_s
         interval = self.interval(target)
         if len(moment.path) > 1:
-            interval = self._inner(moment, self.score(target), interval.start, block)
+            interval = self._inner(moment, self.score(target), interval.start, node)
         if moment.anchor is Bound.START:
             time = interval.start
         elif moment.anchor is Bound.END:
@@ -153,20 +159,20 @@ class Bounds:
             time = interval.start + interval.duration * moment.anchor
         return time + moment.offset_s
 
-    def _inner(self, moment: Moment, score: Score, start: Fraction, block: int) -> Interval:
+    def _inner(self, moment: Moment, score: Score, start: Fraction, node: _Node) -> Interval:
         """Return when a block inside lasts, on the time line of the whole `sync`."""
         outer = moment.path[0]
         interval = Interval(start, start + score.duration)
         for name in moment.path[1:]:
             if not isinstance(score, Group):
                 message = f"`{outer}` has no blocks inside, so there is no `{outer}/{name}`"
-                raise LayoutError("unknown-block", message, block)
+                raise self._unknown(message, name, (), node)
             try:
                 inner = score.block(name)
             except KeyError:
-                known = tuple(b.name for b in score.blocks)
+                known = (b.name for b in score.blocks)
                 message = f"there is no block `{name}` inside `{outer}`"
-                raise LayoutError("unknown-block", message, block, known) from None
+                raise self._unknown(message, name, known, node) from None
             outer = f"{outer}/{name}"
             interval = inner.interval_in_parent.shifted(interval.start)
             score = inner.score

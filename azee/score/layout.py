@@ -112,7 +112,7 @@ def _require_holdable(parts: Sequence[Part]) -> None:
             if block not in names:
                 known = tuple(p.name for p in parts if p is not part)
                 message = f"there is no block `{block}` to hold"
-                raise LayoutError("unknown-block", message, i, known)
+                raise LayoutError("unknown-block", message, i, name=block, known=known)
             if block in seen:
                 circle = " holds ".join(f"`{name}`" for name in (*seen, block))
                 raise LayoutError("cyclic-sync", f"blocks hold each other: {circle}", i)

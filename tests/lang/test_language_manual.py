@@ -12,7 +12,7 @@ from evaluations import found
 from azee.lang.machine import DEFAULT_LIMITS
 from azee.lang.manual import operators
 from azee.lang.registry import NATIVES
-from azee.lang.synchrony import RULES
+from azee.lang.sync_shape import RULES
 from azee.lang.values import Kind
 from azee.score.score import CHANNELS
 

@@ -10,7 +10,8 @@ from typing import Any
 
 from azee.lang.machine import HEAVY, Machine
 from azee.lang.native import Group, Native, Occurrence, Operand, Option, unknown_word
-from azee.lang.synchrony import PATTERN, resolve_sync
+from azee.lang.sync_shape import PATTERN
+from azee.lang.synchrony import resolve_sync
 from azee.lang.values import Kind, ListValue, ScoreValue, SymbolValue, Value
 from azee.score.error import LayoutError
 from azee.score.layout import LONGEST_S, held, in_sequence

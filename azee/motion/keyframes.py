@@ -16,7 +16,7 @@ from fractions import Fraction
 from azee.motion.bound import Bound, BoundScore
 from azee.motion.conflict import contradict
 from azee.motion.curves import transition_s
-from azee.motion.poser import Poser, limbs_asked
+from azee.motion.poser import Poser, demands_of, limbs_asked
 from azee.motion.posture import KeyPosture, Origin
 from azee_solver.binding import Binding
 
@@ -82,9 +82,9 @@ def _shared(
     if contradict(closing, starting, binding):
         return None
     joint = poser.solve(time, [*opening, *closing])
-    if joint.met or poser.solve(time, opening).misses() >= joint.misses():
+    if joint.met or joint.reused or len(demands_of(opening, time)) == len(joint.demands):
         return joint
-    return None
+    return joint if poser.solve(time, opening).misses() >= joint.misses() else None
 
 
 def _apart(

@@ -58,12 +58,13 @@ class Asked:
 
 @dataclass
 class Recorder:
-    """Says that it meets what `can` says, and moves the right shoulder a little further each time.
+    """Says that it meets what `can` says but what is in `never`, and moves shoulder and trunk.
 
     It never moves what is fixed.
     """
 
     can: Callable[[Sequence[Constraint]], bool] = lambda _: True
+    never: frozenset[Constraint] = frozenset()
     asked: list[Asked] = field(default_factory=list)
 
     def __call__(
@@ -82,12 +83,12 @@ class Recorder:
         q[rig().coordinates.index["back_2.flexion"]] += 0.1
         q = np.clip(q, rig().coordinates.lower, rig().coordinates.upper)
         q[[*fixed]] = start[[*fixed]]
-        met = self.can(constraints)
-        reports = tuple(
-            ConstraintReport(d, "", "", 0.0 if met else 1.0, "m", 1e-3, met, None if met else "no")
-            for d in demands
-        )
-        return SolveReport(q, (), reports, (), 1, 0.0, frozenset())
+        reports = []
+        for d in demands:
+            met = self.can(constraints) and d.constraint not in self.never
+            why, residual = (None, 0.0) if met else ("no", 1.0)
+            reports.append(ConstraintReport(d, "", "", residual, "m", 1e-3, met, why))
+        return SolveReport(q, (), tuple(reports), (), 1, 0.0, frozenset())
 
     def placed(self) -> list[list[object]]:
         """The points where the strong index tip was asked to be, per solve."""
@@ -218,6 +219,20 @@ def test_on_the_way_the_trunk_keeps_its_curve_and_only_the_near_is_searched() ->
     assert all(a.fixed == trunk for a in on_the_way)
     assert all(isinstance(p, WorldPoint) for points in solver.placed()[2:] for p in points)
     assert Origin.PATH in [p.origin for p in animation.report.postures]
+
+
+def test_what_no_boundary_could_meet_is_not_searched_for_on_the_way() -> None:
+    blocks = (
+        block("A", "0", ".5", HERE, NOD),
+        block("P", ".5", "1", Transpath(TIP, Straight()), NOD),
+        block("B", "1.5", ".5", THERE, NOD),
+    )
+    hopeless = Recorder(never=frozenset((NOD,)))
+    play(sync(*blocks), hopeless)
+    assert len(boundaries(hopeless)) == 2
+    unlucky = Recorder(lambda constraints: HERE in constraints or THERE in constraints)
+    play(sync(*blocks), unlucky)
+    assert len(boundaries(unlucky)) > 2
 
 
 def test_a_moving_point_is_sampled_on_its_way() -> None:

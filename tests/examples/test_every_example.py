@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
+import shlex
+import shutil
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +18,7 @@ import pytest
 from formats import schema
 from PIL import Image
 from plain_bvh import PlainBvh
-from programs import Node
+from programs import Node, Python
 
 from azee.cli.main import run
 from azee.formats import SUFFIXES
@@ -96,3 +100,33 @@ def test_the_bvh_gives_our_joints(source: Path, built: Path) -> None:
 def test_the_khronos_validator_has_nothing_to_say(source: Path, built: Path, node: Node) -> None:
     report = json.loads(node("validate.mjs", _output(built, source, ".glb")))
     assert report["issues"]["messages"] == []
+
+
+PAGES = [EXAMPLES.parent / "README.md", *sorted(EXAMPLES.glob("*/README.md"))]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.parent.name)
+def test_the_commands_on_a_page_do_what_it_says(page: Path, python: Python, tmp_path: Path) -> None:
+    """Every indented line that begins with `azee`, where the page's first text stands ready."""
+    shutil.copytree(EXAMPLES, tmp_path / "examples")
+    text = page.read_text(encoding="utf-8")
+    if block := re.search(r"^```\n(.*?)^```$", text, re.M | re.S):
+        (tmp_path / "aged-52.azee").write_text(block[1], encoding="utf-8")
+    lines = re.findall(r"^    azee (?!COMMAND)(.*)$", text, re.M)
+    assert lines
+    for line in lines:
+        arguments = shlex.split(line, comments=True)
+        python("-m", "azee", *arguments, expect=0)
+        for option, value in pairwise(arguments):
+            if option in ("-o", "--report"):
+                assert (tmp_path / value).stat().st_size > 1000
+
+
+@pytest.mark.slow
+def test_the_library_call_of_the_readme_works(python: Python, tmp_path: Path) -> None:
+    shutil.copytree(EXAMPLES, tmp_path / "examples")
+    page = (EXAMPLES.parent / "README.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S)
+    python("-c", code, expect=0)
+    assert (tmp_path / "tree.glb").stat().st_size > 1000

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import textwrap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import click
@@ -65,19 +65,26 @@ def _shown(rule: Rule) -> Iterator[str]:
         if parameter.default is not None:
             default = f"by default {' '.join(parameter.default.span.text.split())}"
         yield from _field("" if i else "arguments", f"'{parameter.name}  {default}")
-    if example := rule.entry("example"):
-        yield from _block("example", example.splitlines())
-    else:
-        yield from _block("written", _pattern(rule))
+    yield from _field("example", _example(rule))
 
 
-def _pattern(rule: Rule) -> Iterator[str]:
-    """Yield an application with all that must be given."""
-    yield f":{rule.name}"
-    for parameter in rule.defaults:
-        if parameter.default is None:
-            yield f"    '{parameter.name}"
-            yield "    …"
+def _example(rule: Rule) -> str:
+    """Return the rule's own example, else its application, which needs no argument."""
+    if own := rule.entry("example"):
+        return own
+    given = ", ".join(f"'{name} = …" for name, mandatory in rule.parameters if mandatory)
+    if given:
+        return f":{rule.name}({given})"
+    return f"key(1, :#{rule.name})" if _is_posture(rule) else f":{rule.name}"
+
+
+def _is_posture(rule: Rule) -> bool:
+    """Whether the rule's result is a set of constraints, which a key makes a score of."""
+    from azee.lang.program import load
+    from azee.lang.values import Kind
+    from azee_grammar.source import Source
+
+    return load(Source("<none>", "")).value(f":{rule.name}").kind is Kind.CONSTRAINTS
 
 
 def _field(name: str, text: str) -> Sequence[str]:
@@ -85,12 +92,6 @@ def _field(name: str, text: str) -> Sequence[str]:
     width = min(shutil.get_terminal_size().columns, 100)
     lead = f"  {name:<{INDENT - 2}}"
     return textwrap.wrap(text, width, initial_indent=lead, subsequent_indent=" " * INDENT)
-
-
-def _block(name: str, lines: Iterable[str]) -> Iterator[str]:
-    """Yield lines as they are beside their name."""
-    for i, line in enumerate(lines):
-        yield f"  {'' if i else name:<{INDENT - 2}}{line}"
 
 
 def _unknown(name: str, known: Sequence[str]) -> Diagnostic:

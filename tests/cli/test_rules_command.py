@@ -6,6 +6,7 @@ import pytest
 
 from azee.cli.main import run
 from azee.lang.library import shipped_library
+from azee.lang.program import evaluate_expression
 from azee.lang.rule import Rule
 from azee_grammar.library import shipped_names
 
@@ -34,6 +35,16 @@ def test_a_rule_tells_its_meaning_source_and_arguments(
         assert " ".join(text.split()) in words
     for parameter, mandatory in rule.parameters:
         assert f"'{parameter} {'mandatory' if mandatory else 'by default'}" in words
+
+
+@pytest.mark.parametrize("rule", SHIPPED, ids=lambda rule: rule.name)
+def test_the_example_of_a_rule_can_be_evaluated(
+    rule: Rule, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run(["rules", rule.name])
+    shown = capsys.readouterr().out
+    example = " ".join(shown[shown.index("\n  example   ") :].split()[1:])
+    assert evaluate_expression(example).score.duration >= 0
 
 
 def test_the_colon_may_be_written(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,7 +2,8 @@
 
     python docs/rig/gallery.py [FOLDER]
 
-A change to the body, its limits or its morphs is looked at here before it is committed.
+The project must be installed. A change to the body, its limits or its morphs is looked at here
+before it is committed.
 """
 
 from __future__ import annotations
@@ -16,10 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-ROOT = Path(__file__).resolve().parents[2]
-for source in (".", "grammar", "rig", "solver"):
-    sys.path.insert(0, str(ROOT / source))
-
 from azee.export.picture import Camera, camera, contact_sheet, picture, render
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
@@ -30,7 +27,7 @@ AXIS_COLOURS = ((200, 60, 50), (40, 150, 60), (50, 90, 210))
 
 
 def posture(rig: Rig, *layers: Mapping[str, float]) -> Floats:
-    """Coordinates of idle with some set in degrees, kept inside the limits."""
+    """Return coordinates of idle with some set in degrees, kept inside the limits."""
     q = np.array(rig.coordinates.idle)
     for layer in layers:
         for name, degrees in layer.items():
@@ -40,7 +37,7 @@ def posture(rig: Rig, *layers: Mapping[str, float]) -> Floats:
 
 
 def face(rig: Rig, morphs: Mapping[str, float]) -> dict[str, float]:
-    """Unit weights of some AZee morphs together."""
+    """Return unit weights of some AZee morphs together."""
     units: dict[str, float] = {}
     for morph, weight in morphs.items():
         for unit, share in rig.face_morphs[morph].items():
@@ -49,7 +46,7 @@ def face(rig: Rig, morphs: Mapping[str, float]) -> dict[str, float]:
 
 
 def body_sheet(rig: Rig) -> Image.Image:
-    """Bind and idle from four sides, and the arms raised."""
+    """Show bind and idle from four sides, and the arms raised."""
     size = (300, 375)
     bind = np.array(rig.coordinates.bind)
     rows = [("bind", bind), ("idle", np.array(rig.coordinates.idle))]
@@ -66,7 +63,7 @@ def body_sheet(rig: Rig) -> Image.Image:
 
 
 def hand_sheet(rig: Rig) -> Image.Image:
-    """Each hand posture from the palm and from the back."""
+    """Show each hand posture from the palm and from the back."""
     shown = []
     for name, layer in POSTURES["hands"].items():
         q = posture(rig, POSTURES["show_hands"], layer)
@@ -78,7 +75,7 @@ def hand_sheet(rig: Rig) -> Image.Image:
 
 
 def face_sheet(rig: Rig) -> Image.Image:
-    """Some expressions, and the eyes turned."""
+    """Show some expressions, and the eyes turned."""
     q = np.array(rig.coordinates.idle)
     shown = [
         (name, picture(rig, q, "face", face(rig, morphs), (260, 290)))
@@ -93,7 +90,7 @@ def face_sheet(rig: Rig) -> Image.Image:
 
 
 def morph_sheet(rig: Rig) -> Image.Image:
-    """Every facial morph of AZee that the face can show, at weight 1."""
+    """Show every facial morph of AZee that the face can show, at weight 1."""
     q = np.array(rig.coordinates.idle)
     return contact_sheet(
         [
@@ -105,7 +102,7 @@ def morph_sheet(rig: Rig) -> Image.Image:
 
 
 def axes_sheet(rig: Rig) -> Image.Image:
-    """The zero pose with every bone's axes: x red, dir green, nrm blue."""
+    """Show the zero pose with every bone's axes: x red, dir green, nrm blue."""
     q = np.clip(np.zeros(len(rig.coordinates)), rig.coordinates.lower, rig.coordinates.upper)
     hand = ("palm", "thumb", "index", "middle", "ring", "little")
     trunk = [b for b in rig.bones if not b.startswith(hand)]

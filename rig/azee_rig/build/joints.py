@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_rig.build.anatomy import Anatomy
+from azee_rig.build.anatomy import SIDES, Anatomy
 from azee_rig.build.chain_builder import BuiltChain
 from azee_rig.build.makehuman import Body
 from azee_rig.drive import Drive
@@ -61,6 +61,8 @@ def build_joints(
     skeleton = Skeleton(tuple(names), np.array(parents), np.array(offsets))
     drive = _drive(skeleton, built, bones, bone_of, twist, half_of, coordinate_names)
     weights = np.pad(merged, ((0, 0), (0, len(helpers))))
+    for side in SIDES:
+        _free_of_eyes(weights, [names.index(j) for j in bones[f"eye_{side}"]], parents)
     for helper, (bending, *others) in helpers.items():
         _hand_over(
             weights,
@@ -84,6 +86,14 @@ def _merge(body: Body, names: Sequence[str]) -> tuple[Floats, list[int]]:
         weights[:, nearest(j)] += body.weights[:, j]
     above = [int(body.parents[body.joints.index(name)]) for name in names]
     return weights, [nearest(p) if p >= 0 else -1 for p in above]
+
+
+def _free_of_eyes(weights: Floats, eyes: Sequence[int], parents: Sequence[int]) -> None:
+    """Give skin around an eye, which the body's makers let it drag along, to the head alone."""
+    for eye in eyes:
+        dragged = weights[:, eye] < 0.5
+        weights[dragged, parents[eye]] += weights[dragged, eye]
+        weights[dragged, eye] = 0.0
 
 
 def _hand_over(weights: Floats, helper: int, bending: int, others: Sequence[int]) -> None:

@@ -54,7 +54,7 @@ class Scope:
 
     def _used(self) -> Iterator[Namespace]:
         for library in dict.fromkeys(self.libraries):
-            if library is not self.own and library is not self.core:
+            if library is not self.core:
                 yield library
 
     def names(self) -> tuple[str, ...]:

@@ -63,6 +63,11 @@ def test_the_text_wins_over_libraries_and_those_over_the_core(tmp_path: Path) ->
     assert _seconds("use 'mine\ndef headshake\n    blank 8\n:headshake", tmp_path) == 8
 
 
+def test_using_the_core_changes_nothing(tmp_path: Path) -> None:
+    _write(tmp_path, {"mine/a.azee": "def headshake\n    blank 7\n"})
+    assert _seconds("use 'core\nuse 'mine\n:headshake", tmp_path) == 7
+
+
 def test_a_rule_keeps_the_scope_it_was_defined_in(tmp_path: Path) -> None:
     _write(tmp_path, {"mine/a.azee": "def inner\n    blank 1\ndef outer\n    :inner\n"})
     assert _seconds("use 'mine\ndef inner\n    blank 2\n:outer", tmp_path) == 1

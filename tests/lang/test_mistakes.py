@@ -197,6 +197,12 @@ TIMES = (
         words="no block places `@I_TIP(s)` after",
     ),
     _mistake(
+        "seq (list (key 1 (cstr (place @CH ^Mssp) (transpath @CH straight))) "
+        "(key 1 (place @CH ^Mssp)))",
+        "transpath-ends 1:43",
+        words="before this path",
+    ),
+    _mistake(
         "key 1 (cstr (orient 'dir !head 'along ^up) (orient 'dir !head 'along ^up))",
         "orient-conflict 1:45",
         words="the dir of `!head`",
@@ -406,6 +412,12 @@ def test_a_hostile_text_ends_in_its_diagnostic(name: str) -> None:
     reported = problems(HOSTILE[name])
     assert reported
     assert {p.code for p in reported} <= ENDS
+
+
+def test_depth_is_that_of_nesting_not_of_length() -> None:
+    assert found("seq map(azop('n, 0, blank(mul(^n, .01))), range(1, 500))") == []
+    text = "let 'n 1 seq(list(" + ", ".join(["blank(add(^n, 1))"] * 500) + "))"
+    assert found(text) == []
 
 
 def test_steps_are_counted_and_limited() -> None:

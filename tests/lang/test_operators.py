@@ -180,9 +180,8 @@ def test_sets_and_lists_are_flattened() -> None:
 
 
 def test_a_constraint_knows_where_it_was_written() -> None:
-    origin = constraints("cstr :#fist")[0].origin
-    assert origin is not None
-    assert (origin.file, origin.rule) == ("core/handshapes.azee", "fingers")
+    found = constraints("cstr :#smiling", "def smiling\n    morph 'AU12 1\n")
+    assert found[0].origin == Origin("text.azee", 2, 5, "smiling")
     assert constraints("\n  look ^up")[0].origin == Origin("<expression>", 2, 3, None)
 
 

@@ -18,6 +18,7 @@ from azee.motion.spans import Spans
 from azee.motion.transpath import Travel, passing_limbs
 from azee_rig.coordinates import Coordinates
 from azee_solver.demand import Demand
+from azee_solver.report import SolveReport
 
 Array = NDArray[np.float64]
 
@@ -86,11 +87,44 @@ class Poser:
         constrained = frozenset[str]().union(*(b.limbs for b in bounds)) | self._carried(bounds)
         reference = np.where(self._of(constrained), self.coordinates.idle, current)
         start = np.where(self._of(going_on), current, reference)
-        report = self.solver(demands, start=start, reference=reference)
+        report = self._beside_what_stands(bounds, demands, current, start, reference)
+        if report is None:
+            report = self.solver(demands, start=start, reference=reference)
         keyed = keyed_limbs(bounds, report.coordinates - reference, self.limbs)
         return KeyPosture(
             time, report.coordinates, keyed, passing, tuple(bounds), demands, report, origin
         )
+
+    def _beside_what_stands(
+        self,
+        bounds: Sequence[Bound],
+        demands: Sequence[Demand],
+        current: Array,
+        start: Array,
+        reference: Array,
+    ) -> SolveReport | None:
+        """Solve what is new and leave limbs that blocks go on holding; none if that does not do.
+
+        A head shake then moves the head alone, and what holds on holds still.
+        """
+        last = self.last
+        if last is None or not last.met:
+            return None
+        changed = self.limbs.touching(np.flatnonzero(current != last.coordinates).tolist())
+        before = {*last.bounds}
+        kept = [
+            b
+            for b in bounds
+            if b in before and not b.dynamic and not (b.limbs | b.read_limbs) & changed
+        ]
+        new = [b for b in bounds if b not in kept]
+        free = _free_limbs(kept, new)
+        fixed = frozenset(np.flatnonzero(~self._of(free)).tolist())
+        if not kept or not new or not fixed:
+            return None
+        begin = np.where(self._of(free), start, current)
+        report = self.solver(demands, start=begin, reference=reference, fixed=fixed)
+        return report if report.met else None
 
     def accept(self, posture: KeyPosture) -> KeyPosture:
         """Go on from a posture."""
@@ -119,7 +153,7 @@ class Poser:
         return chosen[self.limbs.of_coordinate]
 
     def _carried(self, bounds: Iterable[Bound]) -> frozenset[str]:
-        """The trunk, where a limb that may lean on it is placed, and the head that it carries."""
+        """Return the trunk, which carries every limb, and the head that is levelled over it."""
         return frozenset(("trunk", "head")) if any(b.limbs for b in bounds) else frozenset()
 
     def _going_on(self, time: Fraction, bounds: Iterable[Bound]) -> frozenset[str]:
@@ -129,6 +163,23 @@ class Poser:
         since = self.last.time
         going = (b for b in bounds if b.requirement.interval.start <= since < time)
         return frozenset().union(*(b.limbs for b in going))
+
+
+def _free_limbs(kept: Iterable[Bound], new: Iterable[Bound]) -> frozenset[str]:
+    """Return the limbs that must move for new requirements while others are kept.
+
+    Those that the new ones speak of, and those of kept ones that share them or follow them. The
+    trunk carries both arms: it stays with the block that had it first.
+    """
+    kept = [*kept]
+    stays = frozenset(("trunk",)) if any("trunk" in b.limbs for b in kept) else frozenset()
+    free = frozenset[str]().union(*(b.limbs for b in new)) - stays
+    while True:
+        drawn = [b.limbs for b in kept if free & (b.limbs | b.read_limbs)]
+        wider = free.union(*drawn) - stays
+        if wider == free:
+            return free
+        free = wider
 
 
 def keyed_limbs(bounds: Iterable[Bound], moved: Array, limbs: Limbs) -> frozenset[str]:

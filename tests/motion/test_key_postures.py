@@ -18,7 +18,17 @@ from azee.score.interval import Interval
 from azee.score.score import Block, Group, Hold, Key, Score
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
-from azee_solver.constraint import Constraint, LookAt, Morph, Place, Rotate, Transpath
+from azee_solver.constraint import (
+    BoneAxis,
+    Constraint,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+    Transpath,
+)
 from azee_solver.demand import Demand
 from azee_solver.geometry import (
     Bone,
@@ -28,6 +38,7 @@ from azee_solver.geometry import (
     Side,
     SigningSpace,
     Site,
+    SitePoint,
     Straight,
     Vec,
     WorldPoint,
@@ -194,6 +205,40 @@ def test_a_gaze_that_lasts_does_not_keep_the_trunk_bent() -> None:
     )
     second = next(a for a in boundaries(solver) if THERE in a.constraints)
     assert second.reference[bend] == pytest.approx(rig().coordinates.idle[bend])
+
+
+def _free(asked: Asked) -> set[str]:
+    names = rig().coordinates.names
+    return {names[v].partition(".")[0] for v in set(range(len(names))) - asked.fixed}
+
+
+def test_what_is_new_is_solved_beside_what_stands() -> None:
+    solver = Recorder()
+    animation = play(sync(block("A", "0", "2", HERE), block("N", "1", ".5", NOD)), solver)
+    first, second = boundaries(solver)
+    assert first.fixed == frozenset()
+    assert second.constraints == (HERE, NOD)
+    assert _free(second) == {"head", "neck"}
+    at_one = next(p for p in animation.report.postures if p.time == 1)
+    flexion = rig().coordinates.index["arm_R.flexion"]
+    assert at_one.coordinates[flexion] == animation.report.postures[0].coordinates[flexion]
+
+
+def test_what_follows_a_new_posture_is_solved_with_it_and_the_trunk_stays() -> None:
+    solver = Recorder()
+    weak = Place(WEAK_TIP, MIDDLE)
+    follower = Place(TIP, SitePoint(Site("PA", Side.WEAK)))
+    palm = Orient(BoneAxis.DIR, Bone("back_2"), Relation.ALONG, Vec(0, 1, 0))
+    play(sync(block("A", "0", "2", follower, palm), block("N", "1", ".5", weak)), solver)
+    free = _free(boundaries(solver)[1])
+    assert {"arm_L", "arm_R", "index_L_1", "index_R_1"} <= free
+    assert not {"back_1", "back_2", "head"} & free
+
+
+def test_where_what_stands_is_in_the_way_all_is_solved_anew() -> None:
+    solver = Recorder(lambda constraints: NOD not in constraints)
+    play(sync(block("A", "0", "2", HERE), block("N", "1", ".5", NOD)), solver)
+    assert [bool(a.fixed) for a in boundaries(solver)[1:3]] == [True, False]
 
 
 def test_a_limb_long_unused_has_gone_to_rest() -> None:

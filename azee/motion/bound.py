@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -53,6 +54,11 @@ class Bound:
         if motion.duration == 0:
             return 1.0
         return float(minimum_jerk(float((time - motion.start) / motion.duration)))
+
+
+def limbs_asked(bounds: Iterable[Bound]) -> frozenset[str]:
+    """Limbs that requirements constrain or read."""
+    return frozenset().union(*(b.limbs | b.read_limbs for b in bounds))
 
 
 @dataclass(frozen=True, eq=False)

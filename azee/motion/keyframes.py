@@ -13,10 +13,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from azee.motion.bound import Bound, BoundScore
+from azee.motion.bound import Bound, BoundScore, limbs_asked
 from azee.motion.conflict import contradict
 from azee.motion.curves import transition_s
-from azee.motion.poser import Poser, demands_of, limbs_asked
+from azee.motion.poser import Poser, demands_of
 from azee.motion.posture import KeyPosture, Origin
 from azee_solver.binding import Binding
 

@@ -29,6 +29,9 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import Bone, Site
 
+TRUNK = "trunk"
+"""The limb that carries all others."""
+
 _FINGER = re.compile(r"(?:thumb|index|middle|ring|little)_([LR])(?:_\d)?")
 _ARM = re.compile(r"(?:clav|arm|f_arm|palm)_([LR])")
 
@@ -43,7 +46,7 @@ def limb_of_bone(bone: str) -> str:
         return "eyes"
     if bone in ("neck", "head"):
         return "head"
-    return "trunk" if bone.startswith("back_") else bone
+    return TRUNK if bone.startswith("back_") else bone
 
 
 def limb_of_coordinate(coordinate: str) -> str:

@@ -59,7 +59,10 @@ def movement(
     for limb, members in limbs.members.items():
         own = [p for p in postures if limb in p.limbs]
         held = [
-            any(limb in needed for needed in holders.all_through(Interval(a.time, b.time)))
+            any(
+                a.holds(limb, needed) and b.holds(limb, needed)
+                for needed in holders.all_through(Interval(a.time, b.time))
+            )
             for a, b in pairwise(own)
         ]
         keys = [

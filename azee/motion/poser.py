@@ -10,9 +10,9 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.bound import Bound
+from azee.motion.bound import Bound, limbs_asked
 from azee.motion.curves import GO_ON_S
-from azee.motion.limbs import Limbs
+from azee.motion.limbs import TRUNK, Limbs
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
 from azee.motion.spans import Spans
 from azee.motion.transpath import Travel, passing_limbs
@@ -37,11 +37,6 @@ def demands_of(
     for demand in (*(b.demand(time) for b in bounds), *paths):
         asked.setdefault((demand.constraint, demand.phase), demand)
     return tuple(asked.values())
-
-
-def limbs_asked(bounds: Iterable[Bound]) -> frozenset[str]:
-    """Limbs that requirements constrain or read."""
-    return frozenset().union(*(b.limbs | b.read_limbs for b in bounds))
 
 
 @dataclass(slots=True)
@@ -140,8 +135,9 @@ class Poser:
         for limb, members in self.limbs.members.items():
             needed = self._needed.get(limb)
             busy = self.last is not None and any(
-                limb in b.limbs | b.read_limbs and b.requirement.interval.end >= time
+                self.last.holds(limb, b.limbs | b.read_limbs)
                 for b in self.last.bounds
+                if b.requirement.interval.end >= time
             )
             if needed is None or (time - needed > GO_ON_S and not busy):
                 out[members] = self.coordinates.idle[members]
@@ -154,7 +150,7 @@ class Poser:
 
     def _carried(self, bounds: Iterable[Bound]) -> frozenset[str]:
         """Return the trunk, which carries every limb, and the head that is levelled over it."""
-        return frozenset(("trunk", "head")) if any(b.limbs for b in bounds) else frozenset()
+        return frozenset((TRUNK, "head")) if any(b.limbs for b in bounds) else frozenset()
 
     def _going_on(self, time: Fraction, bounds: Iterable[Bound]) -> frozenset[str]:
         """Limbs that one block constrains both at the last posture and now."""
@@ -172,7 +168,7 @@ def _free_limbs(kept: Iterable[Bound], new: Iterable[Bound]) -> frozenset[str]:
     trunk carries both arms: it stays with the block that had it first.
     """
     kept = [*kept]
-    stays = frozenset(("trunk",)) if any("trunk" in b.limbs for b in kept) else frozenset()
+    stays = frozenset((TRUNK,)) if any(TRUNK in b.limbs for b in kept) else frozenset()
     free = frozenset[str]().union(*(b.limbs for b in new)) - stays
     while True:
         drawn = [b.limbs for b in kept if free & (b.limbs | b.read_limbs)]

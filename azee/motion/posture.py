@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.bound import Bound
+from azee.motion.bound import Bound, limbs_asked
+from azee.motion.limbs import TRUNK
 from azee_solver.demand import Demand
 
 if TYPE_CHECKING:
@@ -80,6 +81,16 @@ class KeyPosture:
     report: SolveReport
     origin: Origin
     reused: bool = False
+
+    def holds(self, limb: str, needed: frozenset[str]) -> bool:
+        """Whether a limb stays where this posture has it while others are needed.
+
+        A limb that no requirement asked for was moved by the solver to suit the trunk, as a head
+        is levelled over a bent one: it stays as long as the trunk does.
+        """
+        return limb in needed or (
+            TRUNK in needed and limb in self.limbs and limb not in limbs_asked(self.bounds)
+        )
 
     @property
     def met(self) -> bool:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from azee.motion.bound import Bound
 from azee.motion.gauge import Gauge, Instants, instants
 from azee.motion.keyframes import active
-from azee.motion.limbs import Limbs
+from azee.motion.limbs import TRUNK, Limbs
 from azee.motion.movement import Movement, movement
 from azee.motion.poser import demands_of, keyed_limbs
 from azee.motion.posture import KeyPosture, Origin, PostureSolver, Search
@@ -29,7 +29,6 @@ from azee_solver.report import SolveReport
 
 Array = NDArray[np.float64]
 
-TRUNK = "trunk"
 ROUNDS = 12
 MARGIN = 0.9
 """Share of the tolerance that an interpolated posture may use up before a key is added."""

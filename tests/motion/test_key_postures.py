@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
 
@@ -233,6 +233,22 @@ def test_what_follows_a_new_posture_is_solved_with_it_and_the_trunk_stays() -> N
     free = _free(boundaries(solver)[1])
     assert {"arm_L", "arm_R", "index_L_1", "index_R_1"} <= free
     assert not {"back_1", "back_2", "head"} & free
+
+
+def test_a_head_that_the_solver_levelled_stays_level_while_the_trunk_is_needed() -> None:
+    class Leveller(Recorder):
+        def __call__(self, demands: Sequence[Demand], **how: object) -> SolveReport:
+            report = super().__call__(demands, **how)  # type: ignore[arg-type]
+            q = np.array(report.coordinates)
+            q[rig().coordinates.index["head.flexion"]] = -0.2
+            return replace(report, coordinates=q)
+
+    animation = play(sync(block("A", "0", "3", HERE)), Leveller())
+    head = rig().coordinates.index["head.flexion"]
+    inside = animation.clip.times - animation.lead_s
+    during = animation.clip.coordinates[(inside >= 0) & (inside <= 3), head]
+    assert during == pytest.approx(-0.2)
+    assert [p.reused for p in animation.report.postures] == [False, True]
 
 
 def test_where_what_stands_is_in_the_way_all_is_solved_anew() -> None:

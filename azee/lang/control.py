@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from azee.lang.code import Code, Names, gathered
+from azee.lang.code import Code, Names
 from azee.lang.fault import Fault, fault
 from azee.lang.machine import Machine, operator_value
 from azee.lang.procedure import FormalParameter, Procedure
@@ -138,7 +138,9 @@ class Guarded(Code):
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
         """Evaluate it and look at the kind."""
-        (value,) = gathered((self.code,), machine, names)
+        level = machine.enter(1, self.span)
+        value = self.code.evaluate(machine, names)
+        machine.depth = level
         if value.kind is not self.wanted:
             raise fault("wrong-type", f"{self.message}, not {value.kind.value}", self.span)
         return value

@@ -6,14 +6,15 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeAlias
 
 from azee.lang.code import Code
+from azee.lang.resolution import Steps, Visible
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.syntax import Application, Expr
 
 if TYPE_CHECKING:
     from azee.lang.resolve import Resolver
 
-Resolve: TypeAlias = "Callable[[Resolver, Application, tuple[Expr, ...], frozenset[str]], Code]"
-"""From an application, its operands and the names it sees to its code."""
+Resolve: TypeAlias = "Callable[[Resolver, Application, tuple[Expr, ...], Visible], Steps[Code]]"
+"""From an application, its operands and the names it sees to the steps of its code."""
 
 
 def exactly(

@@ -159,7 +159,7 @@ class Program:
 
     def _value(self, expr: Expr, diagnostics: list[Diagnostic]) -> Value | None:
         """Resolve and evaluate; None where something is wrong, which is then reported."""
-        code = self.resolving.resolver(self.scope, None, diagnostics).resolve(expr, frozenset())
+        code = self.resolving.resolver(self.scope, None, diagnostics).resolve(expr)
         try:
             return code.evaluate(Machine(self.limits), {})
         except Fault as problem:

@@ -48,8 +48,10 @@ class Change(ABC):
         if isinstance(score, Key):
             return replace(score, constraints=tuple(self.constraint(c) for c in score.constraints))
         if isinstance(score, Group):
-            blocks = tuple(replace(b, score=self.score(b.score)) for b in score.blocks)
-            return replace(score, blocks=blocks)
+            blocks = []
+            for block in score.blocks:
+                blocks.append(replace(block, score=self.score(block.score)))
+            return replace(score, blocks=tuple(blocks))
         return score
 
     def constraint(self, constraint: Constraint) -> Constraint:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Sequence
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 from azee.lang.application import RuleCall, RuleReference
 from azee.lang.arguments import bound, flattened, given_arguments
@@ -24,6 +25,7 @@ from azee.lang.matching import native_call
 from azee.lang.native import Native
 from azee.lang.procedure import FormalParameter
 from azee.lang.registry import NATIVES
+from azee.lang.resolution import Steps, Visible, run
 from azee.lang.rule import Rule
 from azee.lang.scope import AmbiguousRule, Scope
 from azee.lang.values import Kind, NumberValue, SideValue, SymbolValue, TextValue
@@ -48,8 +50,7 @@ from azee_grammar.vocabulary import bone_names, nearest_site, site_names
 from azee_solver.constraint import Origin
 from azee_solver.geometry import Side
 
-Visible = frozenset[str]
-"""Parameters and local names that an expression sees."""
+Atom: TypeAlias = Number | Symbol | Parameter | SideWord | Text | Hole
 
 _ONLY_WHEN_REACHED = frozenset(
     {"division-by-zero", "number-range", "index-range", "negative-duration", "cannot-stretch"}
@@ -95,11 +96,28 @@ class Resolver:
         self.shared.spans[origin] = span
         return origin
 
-    def resolve(self, expr: Expr, visible: Visible) -> Code:
-        """Return the code of an expression."""
+    def resolve(self, expr: Expr) -> Code:
+        """Return the code of an expression that sees no local names."""
+        return run(self.all((expr,), frozenset()), self._steps)[0]
+
+    def procedure(self, expr: Application) -> tuple[tuple[FormalParameter, ...], Code]:
+        """Return the parameters and the body of an `azop` that sees no local names."""
+        return run(self.azop(expr, frozenset()), self._steps)
+
+    def all(self, exprs: Sequence[Expr], visible: Visible) -> Steps[tuple[Code, ...]]:
+        """Resolve several expressions that see the same names."""
+        codes = []
+        for expr in exprs:
+            codes.append((yield expr, visible))
+        return tuple(codes)
+
+    def _steps(self, expr: Expr, visible: Visible) -> Steps[Code]:
+        if isinstance(expr, Application):
+            return (yield from self._application(expr, visible))
+        return self._atom(expr, visible)
+
+    def _atom(self, expr: Atom, visible: Visible) -> Code:
         match expr:
-            case Application():
-                return self._application(expr, visible)
             case Number():
                 return Constant(expr.span, NumberValue(expr.value))
             case Symbol():
@@ -114,23 +132,19 @@ class Resolver:
                 message = f"the hole `?{expr.name}` stands for anything, in templates only"
                 return self.broken(expr.span, Diagnostic("template-hole", message, expr.span))
 
-    def all(self, exprs: Sequence[Expr], visible: Visible) -> tuple[Code, ...]:
-        """Return the codes of several expressions."""
-        return tuple([self.resolve(expr, visible) for expr in exprs])
-
-    def _application(self, expr: Application, visible: Visible) -> Code:
+    def _application(self, expr: Application, visible: Visible) -> Steps[Code]:
         match expr.head:
             case OperatorName(name=name):
                 native = NATIVES.get(name)
                 if native is not None:
-                    return self._native(native, expr, visible)
-                return self._bare_word(expr, name, visible)
+                    return (yield from self._native(native, expr, visible))
+                return (yield from self._bare_word(expr, name, visible))
             case RuleName(name=name, form=form):
-                return self._rule(expr, name, form, visible)
+                return (yield from self._rule(expr, name, form, visible))
             case BoneName(name=name):
-                return self._body_part(expr, name, Kind.BONE, visible)
+                return (yield from self._body_part(expr, name, Kind.BONE, visible))
             case SiteName(name=name):
-                return self._body_part(expr, name, Kind.SITE, visible)
+                return (yield from self._body_part(expr, name, Kind.SITE, visible))
 
     # Names ----------------------------------------------------------------------------------
 
@@ -148,9 +162,11 @@ class Resolver:
         message = f"nothing here is called `^{expr.name}`"
         return self.broken(expr.span, Diagnostic("unknown-name", message, expr.span, help=hint))
 
-    def _body_part(self, expr: Application, name: str, wanted: Kind, visible: Visible) -> Code:
+    def _body_part(
+        self, expr: Application, name: str, wanted: Kind, visible: Visible
+    ) -> Steps[Code]:
         names = bone_names() if wanted is Kind.BONE else site_names()
-        operands = self.all(flattened(expr), visible)
+        operands = yield from self.all(flattened(expr), visible)
         entry = names.get(name)
         if entry is not None:
             return self.folded(BodyPart(expr.span, entry, wanted, operands), operands)
@@ -169,14 +185,14 @@ class Resolver:
 
     # Rules ----------------------------------------------------------------------------------
 
-    def _rule(self, expr: Application, name: str, form: RuleForm, visible: Visible) -> Code:
+    def _rule(self, expr: Application, name: str, form: RuleForm, visible: Visible) -> Steps[Code]:
         rule = self._found(expr, name)
         parameters = rule.parameters if rule else ()
         title = f"`{form.value}{name}`"
         given, problems = given_arguments(
             expr.operands, expr.called, title, [p for p, _ in parameters]
         )
-        codes = [self.resolve(argument.value, visible) for argument in given]
+        codes = yield from self.all([argument.value for argument in given], visible)
         if rule is None or rule.definition.body is None:
             return Broken(expr.span)
         arguments, mismatches = bound(
@@ -238,10 +254,10 @@ class Resolver:
             return f"`{name}` is an operator: write it without `:`"
         return hint
 
-    def _bare_word(self, expr: Application, name: str, visible: Visible) -> Code:
+    def _bare_word(self, expr: Application, name: str, visible: Visible) -> Steps[Code]:
         if expr.called and (self._defined(name) or not self._operator_is_likelier(name)):
-            return self._rule(expr, name, RuleForm.APPLY, visible)
-        self.all(flattened(expr), visible)
+            return (yield from self._rule(expr, name, RuleForm.APPLY, visible))
+        yield from self.all(flattened(expr), visible)
         span = expr.head.span
         message = f"there is no operator `{name}`"
         hint: str | None
@@ -268,24 +284,28 @@ class Resolver:
 
     # Operators ------------------------------------------------------------------------------
 
-    def _native(self, native: Native, expr: Application, visible: Visible) -> Code:
+    def _native(self, native: Native, expr: Application, visible: Visible) -> Steps[Code]:
         if native.resolve is not None:
-            return native.resolve(self, expr, flattened(expr), visible)
+            return (yield from native.resolve(self, expr, flattened(expr), visible))
         operands = flattened(expr)
-        return native_call(self, native, expr, operands, self.all(operands, visible))
+        codes = yield from self.all(operands, visible)
+        return native_call(self, native, expr, operands, codes)
 
-    def azop(self, expr: Application, visible: Visible) -> tuple[tuple[FormalParameter, ...], Code]:
-        """Return the parameters and the body of an `azop`; defaults see those before them."""
+    def azop(
+        self, expr: Application, visible: Visible
+    ) -> Steps[tuple[tuple[FormalParameter, ...], Code]]:
+        """Resolve the parameters and the body of an `azop`; defaults see those before them."""
         shape = shape_of(expr)
         self.report(*shape.problems)
         parameters: list[FormalParameter] = []
         for name, default in shape.parameters:
-            code = None if default is None else self.resolve(default, visible)
+            code = None if default is None else (yield default, visible)
             parameters.append(FormalParameter(name.name, code))
             visible = visible | {name.name}
         if shape.body is None:
             return tuple(parameters), Broken(expr.span)
-        return tuple(parameters), self.resolve(shape.body, visible)
+        body = yield shape.body, visible
+        return tuple(parameters), body
 
     def folded(self, code: Code, parts: Sequence[Code]) -> Code:
         """Evaluate an expression now, once and for all, if all its parts are literals.

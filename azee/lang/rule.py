@@ -74,9 +74,9 @@ class Rule:
         resolver = self.resolving.resolver(self.scope, self.name, self._diagnostics)
         if is_azop(body):
             assert isinstance(body, Application)
-            parameters, code = resolver.azop(body, frozenset())
+            parameters, code = resolver.procedure(body)
             return Procedure(self.name, parameters, code, {})
-        return Procedure(self.name, (), resolver.resolve(body, frozenset()), {})
+        return Procedure(self.name, (), resolver.resolve(body), {})
 
     @property
     def diagnostics(self) -> Sequence[Diagnostic]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from azee.lang.code import BUILDS, Broken, Code, Constant, Names, gathered
 from azee.lang.fault import Fault, did_you_mean, fault, together
 from azee.lang.machine import HEAVY, Machine
+from azee.lang.resolution import Steps, Visible
 from azee.lang.sync_shape import ShapeReader, SyncRule
 from azee.lang.values import Kind, NumberValue, ScoreValue, SymbolValue, Value
 from azee.score.bounds import Placement
@@ -181,8 +182,8 @@ def _length(rule: SyncRule, value: Value, span: Span) -> Fraction:
 
 
 def resolve_sync(
-    resolver: Resolver, expr: Application, operands: tuple[Expr, ...], visible: frozenset[str]
-) -> Code:
+    resolver: Resolver, expr: Application, operands: tuple[Expr, ...], visible: Visible
+) -> Steps[Code]:
     """Return the code of a `sync`.
 
     Reports missing-argument, missing-value, bad-block-name, unknown-sync-rule, duplicate-block,
@@ -190,11 +191,9 @@ def resolve_sync(
     """
     reader = ShapeReader(expr, operands)
     shape = reader.blocks()
-    codes = {
-        id(operand): resolver.resolve(operand, visible)
-        for operand in operands
-        if operand is not reader.cut_short
-    }
+    whole = [operand for operand in operands if operand is not reader.cut_short]
+    resolved = yield from resolver.all(whole, visible)
+    codes = {id(operand): code for operand, code in zip(whole, resolved, strict=True)}
     if reader.problems:
         return resolver.broken(expr.span, *reader.problems)
     blocks = tuple(

@@ -280,7 +280,7 @@ def test_a_hole_is_for_templates_only() -> None:
     span = Span(Source("template", "blank ?x"), 6, 8)
     diagnostics: list[Diagnostic] = []
     hole = Application(span, OperatorName(span, "blank"), (Hole(span, "x"),), called=False)
-    loaded.resolving.resolver(loaded.scope, None, diagnostics).resolve(hole, frozenset())
+    loaded.resolving.resolver(loaded.scope, None, diagnostics).resolve(hole)
     assert [place(d) for d in diagnostics] == ["template-hole 1:7"]
 
 
@@ -412,6 +412,34 @@ def test_a_hostile_text_ends_in_its_diagnostic(name: str) -> None:
     reported = problems(HOSTILE[name])
     assert reported
     assert {p.code for p in reported} <= ENDS
+
+
+DEEP = {
+    "let('x, 1, ": ")",
+    "if(lt(1, 2), ": ", blank(1))",
+    "sync('A, ": ")",
+    "apply(azop('x, 1, ": "))",
+    "nth(list(": "), 1)",
+    "mirror(": ")",
+    "nth(map(azop('x, 1, ": "), list(1)), 1)",
+    "info-about(blank(1), ": ")",
+    "fixed(seq(list(": ")))",
+}
+
+
+@pytest.mark.parametrize("opening", DEEP)
+@pytest.mark.parametrize("times", [40, 95, 150, 199, 400])
+def test_deep_texts_are_evaluated_or_refused(opening: str, times: int) -> None:
+    reported = found(opening * times + "blank(1)" + DEEP[opening] * times)
+    codes = {entry.partition(" ")[0] for entry in reported}
+    assert codes <= {"recursion-limit"}
+    if times == 40:
+        assert not codes
+
+
+def test_a_deep_value_can_be_mirrored() -> None:
+    opposite = "fold(azop('v, ^up, 'n, 0, oppvect(^v)), ^up, range(1, 195))"
+    assert found(f"key(1, mirror(look({opposite})))") == []
 
 
 def test_depth_is_that_of_nesting_not_of_length() -> None:

@@ -10,6 +10,7 @@ from azee.lang.code import Broken, Code
 from azee.lang.control import Closure, If, Junction, Let, not_a_boolean
 from azee.lang.form import Resolve, exactly
 from azee.lang.native import Group, Native, Occurrence, Operand
+from azee.lang.resolution import Steps, Visible
 from azee.lang.values import Kind, Value
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.syntax import Application, Expr, Symbol
@@ -18,38 +19,36 @@ from azee_solver.geometry import Side
 if TYPE_CHECKING:
     from azee.lang.resolve import Resolver
 
-Visible = frozenset[str]
-
 _COMPARABLE = frozenset({Kind.NUMBER, Kind.SYMBOL, Kind.TEXT, Kind.SIDE, Kind.BOOLEAN})
 _RELATIVE = frozenset({Side.STRONG, Side.WEAK})
 
 
 def _azop(
     resolver: Resolver, expr: Application, operands: tuple[Expr, ...], visible: Visible
-) -> Code:
-    parameters, body = resolver.azop(expr, visible)
+) -> Steps[Code]:
+    parameters, body = yield from resolver.azop(expr, visible)
     return Closure(expr.span, parameters, body)
 
 
 def _let(
     resolver: Resolver, expr: Application, operands: tuple[Expr, ...], visible: Visible
-) -> Code:
+) -> Steps[Code]:
     if not exactly(3, resolver, expr, operands, _LET):
-        resolver.all(operands, visible)
+        yield from resolver.all(operands, visible)
         return Broken(expr.span)
     name, value, body = operands
     if not isinstance(name, Symbol):
         message = "`let` wants a name, such as `'x`, first"
-        resolver.all(operands[1:], visible)
+        yield from resolver.all(operands[1:], visible)
         return resolver.broken(expr.span, Diagnostic("expected-argument-name", message, name.span))
-    code = resolver.resolve(value, visible)
-    return Let(expr.span, name.name, code, resolver.resolve(body, visible | {name.name}))
+    code = yield value, visible
+    return Let(expr.span, name.name, code, (yield body, visible | {name.name}))
 
 
 def _if(
     resolver: Resolver, expr: Application, operands: tuple[Expr, ...], visible: Visible
-) -> Code:
-    codes = resolver.all(operands, visible)
+) -> Steps[Code]:
+    codes = yield from resolver.all(operands, visible)
     if not exactly(3, resolver, expr, operands, _IF):
         return Broken(expr.span)
     if not _condition(resolver, codes[0], "if"):
@@ -60,8 +59,8 @@ def _if(
 def _junction(name: str, stop: bool) -> Resolve:
     def resolve(
         resolver: Resolver, expr: Application, operands: tuple[Expr, ...], visible: Visible
-    ) -> Code:
-        codes = resolver.all(operands, visible)
+    ) -> Steps[Code]:
+        codes = yield from resolver.all(operands, visible)
         if not codes:
             message = f"`{name}` lacks its conditions"
             return resolver.broken(
@@ -86,17 +85,19 @@ def _condition(resolver: Resolver, code: Code, operator: str) -> bool:
 
 def _apply(
     resolver: Resolver, expr: Application, operands: tuple[Expr, ...], visible: Visible
-) -> Code:
+) -> Steps[Code]:
     if not operands:
         message = "`apply` lacks its operator"
         hint = f"it is written `{_APPLY}`"
         return resolver.broken(
             expr.span, Diagnostic("missing-argument", message, expr.head.span, help=hint)
         )
-    operator = resolver.resolve(operands[0], visible)
+    operator = yield operands[0], visible
     given, problems = given_arguments(expr.operands[1:], expr.called, "`apply`", ("argument",))
+    values = yield from resolver.all([argument.value for argument in given], visible)
     codes = tuple(
-        Given(resolver.resolve(a.value, visible), a.span, a.name, a.name_span) for a in given
+        Given(code, argument.span, argument.name, argument.name_span)
+        for code, argument in zip(values, given, strict=True)
     )
     if operator.kind not in (None, Kind.OPERATOR):
         assert operator.kind is not None
@@ -109,7 +110,8 @@ def _apply(
 def _misplaced(name: str) -> Resolve:
     def resolve(
         resolver: Resolver, expr: Application, operands: tuple[Expr, ...], visible: Visible
-    ) -> Code:
+    ) -> Steps[Code]:
+        yield from resolver.all(operands, visible)
         message = f"`{name}` stands at the beginning of a line of the file, not in an expression"
         hint = "local names are given with `let 'name value body`" if name == "def" else None
         return resolver.broken(

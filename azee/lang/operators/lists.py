@@ -75,7 +75,9 @@ def _range(at: Occurrence, machine: Machine, first: float, last: float) -> Value
 def _map(
     at: Occurrence, machine: Machine, operator: Applicable, values: tuple[Value, ...]
 ) -> Value:
-    results = [_on_element(at, machine, operator, (), value) for value in values]
+    results: list[Value] = []
+    for value in values:
+        results.append(_on_element(at, machine, operator, (), value))
     return _listed(at, machine, results)
 
 
@@ -96,9 +98,11 @@ def _on_element(
     element: Value,
 ) -> Value:
     span = at.span_of("operator")
-    machine.spend(1, span)
+    level = machine.enter(1, span)
     given = [Given(value, span) for value in (*before, element)]
-    return applied(machine, operator, given, span, at.origin)
+    result = applied(machine, operator, given, span, at.origin)
+    machine.depth = level
+    return result
 
 
 def _listed(at: Occurrence, machine: Machine, values: list[Value]) -> Value:

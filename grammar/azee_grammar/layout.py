@@ -73,15 +73,13 @@ class LayoutReader:
                 continue
             elif self._open or self._placed(prefix, start, first):
                 self._read(first, end)
-            if self._words.left < 0:
-                break
         yield from self._finish()
 
     def _lines(self) -> Iterator[tuple[int, int, int]]:
         """Yield start, first visible character and end of each line that is not only comment."""
         text = self._text
         at = 1 if text.startswith("\ufeff") else 0
-        while at < len(text):
+        while at < len(text) and self._words.left >= 0:
             line = _LINE.match(text, at)
             assert line
             end = line.end(1)
@@ -89,7 +87,7 @@ class LayoutReader:
             assert blank
             first = blank.end()
             if first < end and text[first] == "#":
-                self.comments.append((first, end))
+                self._words.comment(first, end)
             elif first < end:
                 yield at, first, end
             at = line.end()

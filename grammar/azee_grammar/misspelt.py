@@ -129,7 +129,7 @@ def too_many_words(span: Span, most: int) -> Diagnostic:
     """Answer the first word that is not read any more."""
     return Diagnostic(
         "size-limit",
-        f"this text has more than {most:,} words; the rest of it is not read",
+        f"this text has more than {most:,} words and comments; the rest of it is not read",
         span,
         help="divide it into several files",
     )
@@ -221,8 +221,7 @@ def rule_name(name: str, span: Span) -> Diagnostic | None:
             help="`azop` declares what a rule takes; `#` after a space opens a comment",
         )
     for gap in re.finditer(r"\s+", name):
-        after = name[gap.end() :]
-        if gap.group() != " " or not after[0].isalpha():
+        if gap.group() != " " or not name[gap.end()].isalpha():
             at = span.start + gap.start()
             return Diagnostic(
                 "syntax",

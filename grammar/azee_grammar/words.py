@@ -11,8 +11,8 @@ from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.source import Source, Span
 from azee_grammar.token import BAD, Token
 
-MOST_WORDS = 200_000
-"""In one text. A translated news item has some two hundred."""
+MOST_WORDS = 100_000
+"""In one text, comments included. A translated news item has some two hundred."""
 
 MOST_DIGITS = 17
 """As many as tell any two float64 apart."""
@@ -53,7 +53,7 @@ class WordReader:
         self._report = report
         self._said = 0
         self.comments = comments
-        self.left = MOST_WORDS  # words that may still come
+        self.left = MOST_WORDS  # words that may still come; below zero, the rest is not read
         self._foreign = False  # whether a bracket of another language was reported on this line
 
     def read(self, start: int, end: int) -> list[Token]:
@@ -72,7 +72,7 @@ class WordReader:
             c = text[at]
             said = self._said
             if c == "#" and spaced:
-                self.comments.append((at, end))
+                self.comment(at, end)
                 break
             glued = not spaced and bool(tokens) and tokens[-1].kind not in _BEFORE_OPEN
             if c in _PUNCTUATION:
@@ -86,22 +86,25 @@ class WordReader:
                 if self._said == said:
                     self._say(misspelt.missing_space(self._span(token.start, token.end)))
                 token = token._replace(kind=BAD)
-            self.left -= 1
+            self._count(token.start)
             if self.left < 0:
-                span = self._span(token.start, token.end)
-                self._say(misspelt.too_many_words(span, MOST_WORDS))
                 return [*tokens, token._replace(kind=BAD)]
             tokens.append(token)
             at = token.end
             spaced = False
         return tokens
 
+    def comment(self, start: int, end: int) -> None:
+        """Keep the place of a comment."""
+        self._count(start)
+        self.comments.append((start, end))
+
     def definition(self, start: int, end: int) -> list[Token]:
         """Return the tokens of a `def` line, whose name is the rest of the line."""
         head = Token("DEF", start, start + 3)
         comment = _COMMENT.search(self.text, start, end)
         if comment:
-            self.comments.append((comment.end() - 1, end))
+            self.comment(comment.end() - 1, end)
         rest = self.text[start + 3 : comment.start() if comment else end]
         name = rest.strip()
         at = start + 3 + len(rest) - len(rest.lstrip())
@@ -114,6 +117,11 @@ class WordReader:
             self._say(problem)
             return [head, token._replace(kind=BAD)]
         return [head, token]
+
+    def _count(self, start: int) -> None:
+        if self.left == 0:
+            self._say(misspelt.too_many_words(self._span(start, start + 1), MOST_WORDS))
+        self.left -= 1
 
     def _say(self, diagnostic: Diagnostic) -> None:
         self._said += 1

@@ -213,7 +213,9 @@ def test_a_text_of_too_many_words_is_not_read_to_its_end(
     parsed = parse(Source("t", text))
     assert [notation.item(item) for item in parsed.file.items] == ["(:first)"]
     assert [d.code for d in parsed.diagnostics] == ["size-limit"]
-    assert not parse(Source("t", f":first {'1 ' * 999}")).diagnostics
+    assert not parse(Source("t", f":first {'1 ' * 998} # one")).diagnostics
+    comments = parse(Source("t", "# a\n" * 1001)).diagnostics
+    assert [d.code for d in comments] == ["size-limit"]
 
 
 def test_a_text_of_too_many_mistakes_is_not_read_to_its_end() -> None:

@@ -17,6 +17,7 @@ from azee.motion.movement import Movement
 from azee.motion.poser import Poser
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
 from azee.motion.refine import CLOSEST_S, Refinement
+from azee.motion.rest import Rest
 from azee.motion.spans import Spans
 from azee.motion.transpath import (
     Travel,
@@ -56,7 +57,9 @@ def plan(
     known = travels(score, evaluator.binding.dominant)
     at = by_time(known)
     later = deferred(known, (k.time for k in score.timeline.keyframes))
-    poser = Poser(evaluator.rig.coordinates, limbs, solver, at)
+    coordinates = evaluator.rig.coordinates
+    rest = Rest(score.postures, limbs, coordinates.idle)
+    poser = Poser(coordinates, limbs, solver, at, rest)
     first = solve_boundaries(score, poser, evaluator.binding, later)
     holders: Spans[frozenset[str]] = Spans(
         (

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.bound import Bound, limbs_asked
-from azee.motion.curves import GO_ON_S
 from azee.motion.limbs import TRUNK, Limbs
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
+from azee.motion.rest import Rest
 from azee.motion.spans import Spans
+from azee.motion.standing import solve_beside
 from azee.motion.transpath import Travel, passing_limbs
 from azee_rig.coordinates import Coordinates
 from azee_solver.demand import Demand
-from azee_solver.report import SolveReport
 
 Array = NDArray[np.float64]
 
@@ -46,17 +46,18 @@ class Poser:
     What constraints leave open is drawn to idle, never to the posture before: a trunk that gave
     way a little at each of many keyframes would end at its limits. The search starts from the
     posture before only in limbs that one block goes on constraining, so that no sign inherits an
-    odd elbow from the last. A limb that nothing has needed for longer than `GO_ON_S` is taken to
-    have gone to rest.
+    odd elbow from the last.
+
+    travels: by when they are. rest: which limbs have gone to rest meanwhile.
     """
 
     coordinates: Coordinates
     limbs: Limbs
     solver: PostureSolver
-    travels: Spans[Travel] = field(default_factory=lambda: Spans(()))
+    travels: Spans[Travel]
+    rest: Rest
     current: Array = field(init=False)
     last: KeyPosture | None = field(init=False, default=None)
-    _needed: dict[str, Fraction] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         self.current = np.array(self.coordinates.idle)
@@ -68,80 +69,43 @@ class Poser:
         demands = demands_of(bounds, time)
         asked = limbs_asked(bounds)
         passing = passing_limbs(time, bounds, self.travels.at(time))
-        current = self._rested(time)
         last = self.last
+        current = self.rest.applied(self.current, last, time)
         if last is not None and _nothing_new(demands, last):
             keyed = asked | (last.limbs if set(demands) == set(last.demands) else frozenset())
             indices = [v for limb in keyed for v in self.limbs.members[limb]]
             if np.array_equal(current[indices], last.coordinates[indices]):
+                left = {d.constraint for d in demands}
+                kept = tuple(c for c in last.report.constraints if c.demand.constraint in left)
                 return KeyPosture(
-                    time, current, keyed, passing, tuple(bounds), demands, last.report,
-                    origin, reused=True,
+                    time, current, keyed, passing, tuple(bounds), demands,
+                    replace(last.report, constraints=kept), origin, reused=True,
                 )  # fmt: skip
         going_on = self._going_on(time, bounds)
         constrained = frozenset[str]().union(*(b.limbs for b in bounds)) | self._carried(bounds)
         reference = np.where(self._of(constrained), self.coordinates.idle, current)
         start = np.where(self._of(going_on), current, reference)
-        report = self._beside_what_stands(bounds, demands, current, start, reference)
-        if report is None:
+        beside = None
+        if last is not None:
+            beside = solve_beside(
+                last, bounds, demands, current, start, reference,
+                limbs=self.limbs, solver=self.solver,
+            )  # fmt: skip
+        if beside is None:
             report = self.solver(demands, start=start, reference=reference)
+        else:
+            demands, report = beside
         keyed = keyed_limbs(bounds, report.coordinates - reference, self.limbs)
         return KeyPosture(
             time, report.coordinates, keyed, passing, tuple(bounds), demands, report, origin
         )
 
-    def _beside_what_stands(
-        self,
-        bounds: Sequence[Bound],
-        demands: Sequence[Demand],
-        current: Array,
-        start: Array,
-        reference: Array,
-    ) -> SolveReport | None:
-        """Solve what is new and leave limbs that blocks go on holding; none if that does not do.
-
-        A head shake then moves the head alone, and what holds on holds still.
-        """
-        last = self.last
-        if last is None or not last.met:
-            return None
-        changed = self.limbs.touching(np.flatnonzero(current != last.coordinates).tolist())
-        before = {*last.bounds}
-        kept = [
-            b
-            for b in bounds
-            if b in before and not b.dynamic and not (b.limbs | b.read_limbs) & changed
-        ]
-        new = [b for b in bounds if b not in kept]
-        free = _free_limbs(kept, new)
-        fixed = frozenset(np.flatnonzero(~self._of(free)).tolist())
-        if not kept or not new or not fixed:
-            return None
-        begin = np.where(self._of(free), start, current)
-        report = self.solver(demands, start=begin, reference=reference, fixed=fixed)
-        return report if report.met else None
-
     def accept(self, posture: KeyPosture) -> KeyPosture:
         """Go on from a posture."""
         self.current = np.array(posture.coordinates)
-        for limb in posture.limbs:
-            self._needed[limb] = posture.time
+        self.rest.note(posture)
         self.last = posture
         return posture
-
-    def _rested(self, time: Fraction) -> Array:
-        """Return the last posture, with limbs that nothing has needed lately at rest."""
-        out = self.current.copy()
-        for limb, members in self.limbs.members.items():
-            needed = self._needed.get(limb)
-            busy = self.last is not None and any(
-                self.last.holds(limb, b.limbs | b.read_limbs)
-                for b in self.last.bounds
-                if b.requirement.interval.end >= time
-            )
-            if needed is None or (time - needed > GO_ON_S and not busy):
-                out[members] = self.coordinates.idle[members]
-        return out
 
     def _of(self, limbs: frozenset[str]) -> NDArray[np.bool_]:
         """(V,) which coordinates belong to some limbs."""
@@ -161,23 +125,6 @@ class Poser:
         return frozenset().union(*(b.limbs for b in going))
 
 
-def _free_limbs(kept: Iterable[Bound], new: Iterable[Bound]) -> frozenset[str]:
-    """Return the limbs that must move for new requirements while others are kept.
-
-    Those that the new ones speak of, and those of kept ones that share them or follow them. The
-    trunk carries both arms: it stays with the block that had it first.
-    """
-    kept = [*kept]
-    stays = frozenset((TRUNK,)) if any(TRUNK in b.limbs for b in kept) else frozenset()
-    free = frozenset[str]().union(*(b.limbs for b in new)) - stays
-    while True:
-        drawn = [b.limbs for b in kept if free & (b.limbs | b.read_limbs)]
-        wider = free.union(*drawn) - stays
-        if wider == free:
-            return free
-        free = wider
-
-
 def keyed_limbs(bounds: Iterable[Bound], moved: Array, limbs: Limbs) -> frozenset[str]:
     """Return the limbs that a solved posture is a key of.
 
@@ -191,7 +138,15 @@ def keyed_limbs(bounds: Iterable[Bound], moved: Array, limbs: Limbs) -> frozense
 
 
 def _nothing_new(demands: Iterable[Demand], last: KeyPosture) -> bool:
-    """Whether an earlier answer serves: the same demands, or fewer and all were met."""
+    """Whether an earlier answer serves: the same demands, or fewer of which none could do better.
+
+    What was missed then may be met now only if a demand that is gone claimed the same limbs.
+    """
     before = {(d.constraint, d.phase) for d in last.demands}
     now = {(d.constraint, d.phase) for d in demands}
-    return now == before or (last.met and now < before)
+    if not now <= before:
+        return False
+    left = {constraint for constraint, _ in now}
+    missed = {c.demand.constraint for c in last.report.constraints if not c.met} & left
+    freed = frozenset[str]().union(*(b.limbs for b in last.bounds if b.constraint not in left))
+    return not any(freed & (b.limbs | b.read_limbs) for b in last.bounds if b.constraint in missed)

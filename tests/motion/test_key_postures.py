@@ -251,6 +251,44 @@ def test_a_head_that_the_solver_levelled_stays_level_while_the_trunk_is_needed()
     assert [p.reused for p in animation.report.postures] == [False, True]
 
 
+def test_what_could_not_be_met_keeps_its_answer_while_something_else_is_solved_beside_it() -> None:
+    solver = Recorder(never=frozenset((HERE,)))
+    animation = play(sync(block("A", "0", "2", HERE), block("N", "1", ".5", NOD)), solver)
+    assert [a.constraints for a in boundaries(solver)] == [(HERE,), (NOD,)]
+    at_one = next(p for p in animation.report.postures if p.time == 1)
+    assert [(c.demand.constraint, c.met) for c in at_one.report.constraints] == [
+        (NOD, True), (HERE, False),
+    ]  # fmt: skip
+    assert [d.constraint for d in at_one.demands] == [NOD, HERE]
+
+
+def test_a_head_comes_back_though_a_hand_goes_by_it() -> None:
+    forehead = Place(TIP, SitePoint(Site("FH")))
+    blocks = (
+        block("A", "0", "2", forehead),
+        block("N", "0", ".3", NOD),
+        block("E", "1", ".2", LookAt(MIDDLE)),
+    )
+    idle = rig().coordinates.idle
+    head = rig().coordinates.index["head.flexion"]
+
+    class Nodder(Recorder):
+        def __call__(self, demands: Sequence[Demand], **how: object) -> SolveReport:
+            report = super().__call__(demands, **how)  # type: ignore[arg-type]
+            q = np.array(report.coordinates)
+            if any(d.constraint == NOD for d in demands):
+                q[head] = 0.1
+            return replace(report, coordinates=q)
+
+    animation = play(sync(*blocks), Nodder())
+    at = {float(p.time): p.coordinates[head] for p in animation.report.postures}
+    assert at[0.0] == at[0.3] == pytest.approx(0.1)
+    assert at[1.0] == pytest.approx(idle[head])
+    shaken = play(sync(*blocks, block("M", ".6", ".1", NOD)), Nodder())
+    at = {float(p.time): p.coordinates[head] for p in shaken.report.postures}
+    assert at[0.3] == at[0.6] == at[0.7] == pytest.approx(0.1)
+
+
 def test_where_what_stands_is_in_the_way_all_is_solved_anew() -> None:
     solver = Recorder(lambda constraints: NOD not in constraints)
     play(sync(block("A", "0", "2", HERE), block("N", "1", ".5", NOD)), solver)

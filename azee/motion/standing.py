@@ -1,0 +1,87 @@
+"""Solving what is new at an instant beside what goes on standing.
+
+A block that holds a posture holds it still: another that begins meanwhile moves what it needs and
+leaves the rest where it is, so that a head shake moves the head alone. Where that does not do, all
+is solved together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.bound import Bound
+from azee.motion.limbs import TRUNK, Limbs
+from azee.motion.posture import KeyPosture, PostureSolver
+from azee_solver.demand import Demand
+from azee_solver.report import SolveReport
+
+Array = NDArray[np.float64]
+
+
+def solve_beside(
+    last: KeyPosture,
+    bounds: Sequence[Bound],
+    demands: Sequence[Demand],
+    current: Array,
+    start: Array,
+    reference: Array,
+    *,
+    limbs: Limbs,
+    solver: PostureSolver,
+) -> tuple[tuple[Demand, ...], SolveReport] | None:
+    """Return the demands and an answer in which the limbs of lasting blocks have not moved.
+
+    What the last posture could not meet, and no limb that moves now could help, is not asked
+    again: it keeps the answer it had. Its demands come last.
+
+    Args: current: (V,) where the body is. start, reference: (V,) for limbs that move.
+    Returns: none if there is nothing that stands, or if what is new cannot be met beside it.
+    """
+    changed = limbs.touching(np.flatnonzero(current != last.coordinates).tolist())
+    before = {d.constraint for d in last.demands}
+    kept = [
+        b
+        for b in bounds
+        if b.constraint in before and not b.dynamic and not (b.limbs | b.read_limbs) & changed
+    ]
+    new = [b for b in bounds if b not in kept]
+    free = free_limbs(kept, new)
+    moving = np.array([name in free for name in limbs.names])[limbs.of_coordinate]
+    if not kept or not new or np.all(moving):
+        return None
+    missed = {c.demand.constraint: c for c in last.report.constraints if not c.met}
+    hopeless = {b.constraint for b in kept if b.constraint in missed and not b.limbs & free}
+    asked = [d for d in demands if d.constraint not in hopeless]
+    left = [d for d in demands if d.constraint in hopeless]
+    report = solver(
+        asked,
+        start=np.where(moving, start, current),
+        reference=reference,
+        fixed=frozenset(np.flatnonzero(~moving).tolist()),
+    )
+    if not report.met:
+        return None
+    unanswered = [replace(missed[d.constraint], demand=d) for d in left]
+    whole = replace(report, constraints=(*report.constraints, *unanswered))
+    return (*asked, *left), whole
+
+
+def free_limbs(kept: Iterable[Bound], new: Iterable[Bound]) -> frozenset[str]:
+    """Return the limbs that must move for new requirements while others are kept.
+
+    Those that the new ones speak of, and those of kept ones that share them or follow them. The
+    trunk carries both arms: it stays with the block that had it first.
+    """
+    kept = [*kept]
+    stays = frozenset((TRUNK,)) if any(TRUNK in b.limbs for b in kept) else frozenset()
+    free = frozenset[str]().union(*(b.limbs for b in new)) - stays
+    while True:
+        drawn = [b.limbs for b in kept if free & (b.limbs | b.read_limbs)]
+        wider = free.union(*drawn) - stays
+        if wider == free:
+            return free
+        free = wider

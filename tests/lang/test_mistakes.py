@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 from evaluations import found, place, problems, program
 
+import azee.lang
+import azee.score
 from azee.lang.machine import Limits
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 from azee_grammar.source import Source, Span
@@ -267,8 +269,8 @@ def test_every_mistake_of_evaluation_is_among_them() -> None:
     elsewhere = {"step-limit", "template-hole", "ambiguous-rule", "no-utterance"}
     sources = "\n".join(
         path.read_text(encoding="utf-8")
-        for folder in ("lang", "score")
-        for path in (Path(__file__).parents[2] / "azee" / folder).rglob("*.py")
+        for package in (azee.lang, azee.score)
+        for path in Path(package.__path__[0]).rglob("*.py")
     )
     assert sorted(code for code in codes if f'"{code}"' not in sources) == []
     for code in elsewhere:

@@ -42,7 +42,9 @@ EYE_COMFORT = 300.0
 
 GAIN = 0.8
 """A descent has gained something if it brings overlap or cost below this part of the best."""
-POLISH, POLISH_EASE, POLISH_OVERLAP = 5.0, 0.01, 0.1
+DEEP = 2.0
+"""Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
+POLISH, POLISH_EASE, POLISH_OVERLAP = 5.0, 0.01, 0.3
 """Misses below so many tolerances are tried again with posture, comfort and overlap at a part."""
 
 
@@ -222,6 +224,8 @@ class _Attempt:
         posture[:, 4] *= POLISH_EASE
         closer = self.descend(result.q[self.program.free])
         posture[:], overlap[:] = kept, stiff
+        if closer.overlap_m > max(result.overlap_m, DEEP * self.body.options.overlap_m):
+            return result
         return min(result, closer, key=lambda r: _merit(r, self.body.options))
 
     def descend(self, start: Array) -> Result:

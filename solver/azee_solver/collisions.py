@@ -26,6 +26,10 @@ Array = NDArray[np.float64]
 
 NEAR_M = 0.014
 """Capsules of the bones before and after a site take part in its contacts if so near to it."""
+MARGIN_M = 0.002
+"""Capsules hold most of the skin, not all: hands are kept so far from trunk and head."""
+BESIDE_M, FAR_M = 0.04, 0.1
+"""Capsules beyond a palm take part wholly up to the one distance and not at all from the other."""
 SLACK_M, CALLED_SLACK_M, PALM_SLACK_M = 0.001, 0.002, 0.009
 """Overlap that is forgiven where a site is placed on a site; where the text calls that a contact;
 and where one of them is a palm, which is hollow and soft: its edges stand out around what it
@@ -34,10 +38,15 @@ touches."""
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contact:
-    """Two sites that are meant to touch: capsules around each (K,), and the overlap allowed."""
+    """Two sites that are meant to touch.
 
-    first: NDArray[np.bool_]
-    second: NDArray[np.bool_]
+    first, second: (K,) how far each capsule takes part on either side, 0 to 1. allowed_m: how far
+    the capsules stand out beyond the skin at the two sites, so that they overlap by as much when
+    the skins touch, and what is forgiven besides.
+    """
+
+    first: Array
+    second: Array
     allowed_m: float
 
 
@@ -62,8 +71,10 @@ class Obstacles:
         self, binding: Binding, anatomy: Anatomy, constraints: Sequence[Constraint]
     ) -> None:
         self.binding, self.rig = binding, binding.rig
-        self.pairs, radii, self._relative = _pairs(self.rig, anatomy)
-        self.reach: Array = radii - self._allowance(self._meant(constraints, anatomy))
+        self.pairs, radii, self._margin, self._relative = _pairs(self.rig, anatomy)
+        self.reach: Array = (
+            radii + self._margin - self._allowance(self._meant(constraints, anatomy))
+        )
         self._nodes = self.rig.capsules.node[self.pairs]
         self._moves = anatomy.moves
 
@@ -86,10 +97,10 @@ class Obstacles:
         i, j = self.pairs.T
         allowed = np.zeros(len(self.pairs))
         for contact in contacts:
-            taking_part = (contact.first[i] & contact.second[j]) | (
-                contact.first[j] & contact.second[i]
+            share = np.maximum(
+                contact.first[i] * contact.second[j], contact.first[j] * contact.second[i]
             )
-            allowed = np.maximum(allowed, np.where(taking_part, contact.allowed_m, 0.0))
+            allowed = np.maximum(allowed, share * contact.allowed_m)
         return allowed
 
     def _meant(self, constraints: Sequence[Constraint], anatomy: Anatomy) -> Iterable[Contact]:
@@ -103,21 +114,21 @@ class Obstacles:
 
     def _contact(self, one: Site, other: Site, anatomy: Anatomy, *, called: bool) -> Contact:
         sites = self.binding.site(one), self.binding.site(other)
-        palm = called and any(site.bone.startswith("palm") for site in sites)
-        slack = PALM_SLACK_M if palm else CALLED_SLACK_M if called else SLACK_M
-        around, standing_out = [], 0.0
-        for site in sites:
-            near, depth = _around(self.rig, site.name, anatomy)
-            if palm and site.bone.startswith("palm"):
-                near = near | anatomy.paths[self.rig.capsules.node, site.node]
-            around.append(near)
-            standing_out += depth
-        return Contact(around[0], around[1], standing_out + slack)
+        palms = [called and site.bone.startswith("palm") for site in sites]
+        slack = PALM_SLACK_M if any(palms) else CALLED_SLACK_M if called else SLACK_M
+        near, depth = zip(
+            *(
+                _around(self.rig, s.name, anatomy, wide=p)
+                for s, p in zip(sites, palms, strict=True)
+            ),
+            strict=True,
+        )
+        return Contact(near[0], near[1], sum(depth) + slack)
 
     def overlaps(self, frames: Frames) -> tuple[Overlap, ...]:
         """Pairs that overlap in a posture, deepest first."""
         names = self.rig.capsules.names
-        excess = self.reach - _distances(self.rig, self.pairs, frames)
+        excess = self.reach - self._margin - _distances(self.rig, self.pairs, frames)
         order = [int(n) for n in np.argsort(-excess, kind="stable") if excess[n] > 0]
         return tuple(
             Overlap(names[self.pairs[n, 0]], names[self.pairs[n, 1]], float(excess[n]))
@@ -126,10 +137,11 @@ class Obstacles:
 
 
 @lru_cache(maxsize=256)
-def _around(rig: Rig, name: str, anatomy: Anatomy) -> tuple[NDArray[np.bool_], float]:
-    """Capsules around a site, (K,), and how far they stand out beyond the skin there, metres.
+def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> tuple[Array, float]:
+    """How far capsules take part in contacts of a site, (K,), and how far they stand out there.
 
-    Taken at the zero pose: capsules of the site's own bone, and near ones of its neighbours.
+    Taken at the zero pose: capsules of the site's own bone, and near ones of its neighbours. Wide:
+    also those of all bones beyond, such as the fingers of a palm, the farther the less.
     """
     site, capsules, parents = rig.sites[name], rig.capsules, rig.chain.parents
     frames = rig.chain.frames(np.zeros(len(rig.coordinates)))
@@ -143,12 +155,17 @@ def _around(rig: Rig, name: str, anatomy: Anatomy) -> tuple[NDArray[np.bool_], f
     own = capsules.node == site.node
     beside = (capsules.node == parents[site.node]) | (parents[capsules.node] == site.node)
     near = own | (beside & (depth > -NEAR_M))
-    return near, max(0.0, float(depth[near].max(initial=0.0)))
+    share = near.astype(np.float64)
+    if wide:
+        beyond = anatomy.paths[capsules.node, site.node]
+        fading = np.clip((FAR_M + depth) / (FAR_M - BESIDE_M), 0.0, 1.0)
+        share = np.maximum(share, np.where(beyond, fading, 0.0))
+    return share, max(0.0, float(depth[near].max(initial=0.0)))
 
 
 @lru_cache(maxsize=4)
-def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, NDArray[np.bool_]]:
-    """Pairs (P, 2), sums of radii (P,), and which coordinates change their distance (P, V).
+def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, Array, NDArray[np.bool_]]:
+    """Pairs (P, 2), sums of radii and margins (P,), coordinates that change distances (P, V).
 
     Fingers of one hand lie side by side when they are straight: no pair asks for more than that.
     """
@@ -161,7 +178,11 @@ def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, NDArra
     same_hand = ~(relative & others).any(axis=1)
     straight = rig.chain.frames(np.zeros(len(rig.coordinates)))
     radii[same_hand] = np.minimum(radii, _distances(rig, pairs, straight))[same_hand]
-    return pairs, radii, relative
+    hand = np.logical_or(*(anatomy.paths[:, rig.bones[f"palm_{side}"].node] for side in "LR"))
+    arm = np.logical_or(*(anatomy.paths[:, rig.bones[f"arm_{side}"].node] for side in "LR"))
+    i, j = capsules.node[pairs].T
+    margin = np.where((hand[i] & ~arm[j]) | (hand[j] & ~arm[i]), MARGIN_M, 0.0)
+    return pairs, radii, margin, relative
 
 
 def _distances(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> Array:

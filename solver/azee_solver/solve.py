@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from azee_solver import describe
 from azee_solver.anatomy import Part
-from azee_solver.attempt import Body, Result, solve_group
+from azee_solver.attempt import DEEP, Body, Result, solve_group
 from azee_solver.constraint import Morph, Place, Transpath, Trill
 from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
@@ -36,8 +36,6 @@ Array = NDArray[np.float64]
 
 CLEARLY = 0.7
 """Moving more of the body is worth it for misses below this part of the others."""
-DEEP = 2.0
-"""Overlaps beyond so many times what is tolerated are worth moving more of the body."""
 PULL = 0.1
 """With how much of a tolerance's force a constraint that has lost still pulls."""
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from azee.export.files import replace_file
 from azee.motion.clip import Clip
@@ -14,11 +15,12 @@ from azee_rig.rig import Rig
 
 VIEWS = ("front", "side")
 MOST = 8
-"""Moments in one picture; of more, an even choice is shown."""
+"""Moments in one picture; of more, those that differ most from each other are shown."""
 SIZE = (360, 450)
 SAME_RAD = np.radians(3.0)
-SAME_WEIGHT = 0.2
-"""Up to which postures and faces look the same."""
+"""Up to which difference in any one joint postures look the same."""
+FACE_RAD = np.radians(15.0)
+"""A face unit that comes in whole tells as much as this turn of a joint."""
 
 
 def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) -> None:
@@ -29,7 +31,8 @@ def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) 
     from azee.export.picture import contact_sheet, picture
 
     frames = sorted({int(np.abs(clip.times - moment).argmin()) for moment in moments})
-    chosen = even_choice(_different(clip, frames), MOST)
+    shapes = np.hstack([clip.coordinates, FACE_RAD * clip.unit_weights])[frames]
+    chosen = [frames[i] for i in telling(shapes, MOST)]
     pictures = []
     for view in VIEWS:
         for frame in chosen:
@@ -42,22 +45,15 @@ def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) 
         file.write(data.getvalue())
 
 
-def _different(clip: Clip, frames: Sequence[int]) -> list[int]:
-    """Leave out frames that show what the frame before showed: a posture that is held."""
-    chosen: list[int] = []
-    for frame in frames:
-        if chosen:
-            turned = np.abs(clip.coordinates[frame] - clip.coordinates[chosen[-1]]).max()
-            shaped = np.abs(clip.unit_weights[frame] - clip.unit_weights[chosen[-1]])
-            if turned < SAME_RAD and shaped.max(initial=0) < SAME_WEIGHT:
-                continue
-        chosen.append(frame)
-    return chosen
+def telling(shapes: NDArray[np.float64], most: int) -> list[int]:
+    """Choose the postures that tell most: the first, then ever the one least like those chosen.
 
-
-def even_choice(frames: Sequence[int], most: int) -> list[int]:
-    """Return at most `most` of the frames, first and last among them, evenly spread."""
-    if len(frames) <= most:
-        return list(frames)
-    places = np.linspace(0, len(frames) - 1, most).round().astype(int)
-    return [frames[i] for i in places]
+    Args: shapes: (n, D) radians, in order of time. Returns: at most `most` indices, in order; of
+        postures that look the same only the first.
+    """
+    chosen = [0]
+    unlike = np.abs(shapes - shapes[0]).max(axis=1, initial=0.0)
+    while len(chosen) < most and unlike.max() > SAME_RAD:
+        chosen.append(int(unlike.argmax()))
+        unlike = np.minimum(unlike, np.abs(shapes - shapes[chosen[-1]]).max(axis=1))
+    return sorted(chosen)

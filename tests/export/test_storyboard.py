@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from numpy.typing import NDArray
 from PIL import Image
 
-from azee.export.storyboard import MOST, SIZE, VIEWS, even_choice, write_png
+from azee.export.storyboard import MOST, SAME_RAD, SIZE, VIEWS, telling, write_png
 from azee.motion.clip import Clip
 from azee_rig.rig import Rig
 
@@ -31,9 +33,14 @@ def test_a_column_per_moment_and_a_row_per_view(signer: Rig, tmp_path: Path) -> 
     assert np.abs(idle - moved).max() > 60
 
 
-@given(st.lists(st.integers(0, 500), unique=True, min_size=1).map(sorted))
-def test_an_even_choice_keeps_the_ends(frames: list[int]) -> None:
-    chosen = even_choice(frames, MOST)
-    assert len(chosen) == min(len(frames), MOST)
-    assert (chosen[0], chosen[-1]) == (frames[0], frames[-1])
+@given(arrays(float, st.tuples(st.integers(1, 30), st.just(3)), elements=st.floats(-3, 3)))
+def test_the_chosen_postures_are_the_least_alike(shapes: NDArray[np.float64]) -> None:
+    chosen = telling(shapes, MOST)
+    assert chosen[0] == 0
     assert chosen == sorted(set(chosen))
+    assert len(chosen) <= MOST
+    apart = np.abs(shapes[:, None] - shapes[chosen]).max(axis=2)
+    between = [apart[i, k] for i in chosen for k in range(len(chosen)) if chosen[k] != i]
+    assert all(gap > SAME_RAD for gap in between)
+    left_out = apart.min(axis=1).max()
+    assert left_out <= (min(between) if len(chosen) == MOST else SAME_RAD)

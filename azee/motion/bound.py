@@ -80,6 +80,14 @@ class BoundScore:
         return Spans((b.requirement.interval, b) for b in self.postures)
 
     @cached_property
+    def sharing(self) -> dict[Bound, tuple[Bound, ...]]:
+        """For every skeletal morph, those that move the same coordinates meanwhile, itself too."""
+        morphs = [b for b in self.postures if isinstance(b.constraint, Morph)]
+        spans = Spans((b.requirement.interval, b) for b in morphs)
+        near = ((b, spans.meeting(b.requirement.interval)) for b in morphs)
+        return {b: tuple(o for o in others if o.moves & b.moves) for b, others in near}
+
+    @cached_property
     def paths_at(self) -> Spans[Bound]:
         """The transpaths, by when they hold."""
         return Spans((b.requirement.interval, b) for b in self.paths)

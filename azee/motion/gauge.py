@@ -134,8 +134,7 @@ class Gauge:
 
     def _morphs(self, bound: Bound, at: Instants) -> Iterator[tuple[Sequence[Constraint], slice]]:
         """Yield the skeletal morphs in force together with one, for they add, and when."""
-        near = self.score.in_force.meeting(bound.requirement.interval)
-        others = [b for b in near if isinstance(b.constraint, Morph) and b.moves & bound.moves]
+        others = self.score.sharing[bound]
         parts = [self.inside(b, at.seconds, enforced=True) for b in others]
         cuts = sorted({0, len(at.times), *(i for p in parts for i in (p.start, p.stop))})
         for first, last in pairwise(cuts):

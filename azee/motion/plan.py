@@ -61,12 +61,11 @@ def plan(
     rest = Rest(score.postures, limbs, coordinates.idle)
     poser = Poser(coordinates, limbs, solver, at, rest)
     first = solve_boundaries(score, poser, evaluator.binding, later)
-    holders: Spans[frozenset[str]] = Spans(
-        (
-            *((b.requirement.interval, b.limbs | b.read_limbs) for b in score.postures),
-            *((k.between, k.bound.limbs) for k in known),
-        )
-    )
+    needed = [
+        *((b.requirement.interval, b.limbs | b.read_limbs) for b in score.postures),
+        *((k.between, k.bound.limbs) for k in known),
+    ]
+    holders: Spans[frozenset[str]] = Spans(dict.fromkeys(needed))
     gauge = Gauge(evaluator, score, {}, first.giving_way)
     hopeless = frozenset(
         c.demand.constraint for p in first.postures for c in p.report.constraints if not c.met
@@ -74,7 +73,7 @@ def plan(
     refinement = Refinement(gauge, limbs, solver, holders, hopeless)
     work = _Work(refinement, known, at, list(first.postures), frame_times)
     work.steer(later)
-    work.follow(b for b in score.postures if b.dynamic)
+    work.follow([b for b in score.postures if b.dynamic])
     done = work.refinement.refined(work.postures, frame_times)
     return Plan(done.postures, done.movement, work.refinement.gauge, done.instants)
 
@@ -112,8 +111,10 @@ class _Work:
             samples.update(course_samples(path, evaluator.rig.chain.frames(q), evaluator))
         self._add(self._on_frames(samples), base, Origin.PATH)
 
-    def follow(self, dynamic: Iterable[Bound]) -> None:
+    def follow(self, dynamic: Sequence[Bound]) -> None:
         """Follow points that move."""
+        if not dynamic:
+            return
         base = self.refinement.join(self.postures)
         evaluator = self.refinement.gauge.evaluator
         samples: set[Fraction] = set()

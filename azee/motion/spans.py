@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 from fractions import Fraction
 from typing import Generic, TypeVar
@@ -26,9 +26,10 @@ class Spans(Generic[T]):
         )
         """All starts and ends, in order."""
         position = {t: i for i, t in enumerate(self.instants)}
+        self._ends = [(position[span.start], position[span.end]) for span, _ in self._entries]
         self._stretches: list[list[int]] = [[] for _ in self.instants]
-        for k, (span, _) in enumerate(self._entries):
-            for i in range(position[span.start], position[span.end] + 1):
+        for k, (first, last) in enumerate(self._ends):
+            for i in range(first, last + 1):
                 self._stretches[i].append(k)
 
     def at(self, time: Fraction) -> list[T]:
@@ -40,16 +41,16 @@ class Spans(Generic[T]):
         i = bisect_right(self.instants, interval.start) - 1
         if i < 0:
             return []
-        near = (self._entries[k] for k in self._stretches[i])
-        return [t for span, t in near if span.start <= interval.start and interval.end <= span.end]
+        end = bisect_left(self.instants, interval.end, lo=i)
+        return [self._entries[k][1] for k in self._stretches[i] if self._ends[k][1] >= end]
 
     def meeting(self, interval: Interval) -> list[T]:
         """Return what shares an instant with an interval, in the order given."""
-        first = max(0, bisect_right(self.instants, interval.start) - 1)
-        last = bisect_right(self.instants, interval.end)
-        near = sorted({k for stretch in self._stretches[first:last] for k in stretch})
+        start = bisect_left(self.instants, interval.start)
+        end = bisect_right(self.instants, interval.end) - 1
+        near = {k for stretch in self._stretches[max(0, start - 1) : end + 1] for k in stretch}
         return [
-            t
-            for span, t in (self._entries[k] for k in near)
-            if span.start <= interval.end and interval.start <= span.end
+            self._entries[k][1]
+            for k in sorted(near)
+            if self._ends[k][0] <= end and start <= self._ends[k][1]
         ]

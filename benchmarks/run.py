@@ -1,11 +1,12 @@
 """How long things take that a user waits for, with the goals beside; `make bench`.
 
-Each row is the median of a few runs after one that warms caches; whole processes are started
-anew each time. Run it on a machine that does nothing else.
+Each row is the median of a few runs after one that warms caches, by the clock and in processor
+time; whole processes are started anew each time. On a busy machine only the latter means much.
 """
 
 from __future__ import annotations
 
+import os
 import statistics
 import subprocess
 import sys
@@ -32,35 +33,44 @@ RUNS = 7
 
 @dataclass(frozen=True)
 class Row:
-    """A median and what it should be, seconds."""
+    """Medians, by the clock and of the processor, and what the first should be; seconds."""
 
     what: str
-    seconds: float
+    clock_s: float
+    processor_s: float | None = None
     goal_s: float | None = None
 
     def __str__(self) -> str:
-        goal = "" if self.goal_s is None else f"{_time(self.goal_s):>12}"
-        return f"{self.what:<58}{_time(self.seconds):>12}{goal}"
+        times = (self.clock_s, self.processor_s, self.goal_s)
+        return f"{self.what:<48}{''.join(f'{_time(s):>12}' for s in times)}".rstrip()
 
 
-def _time(seconds: float) -> str:
+def _time(seconds: float | None) -> str:
+    if seconds is None:
+        return ""
     return f"{seconds:.2f} s" if seconds >= 1 else f"{seconds * 1000:.1f} ms"
 
 
-def median(action: Callable[[], object]) -> float:
-    """Median of what an action takes."""
-
-    def timed() -> float:
-        began = time.perf_counter()
+def timed(what: str, action: Callable[[], object], goal_s: float | None = None) -> Row:
+    """Return the row of an action; processes that it starts and waits for count."""
+    runs = []
+    for _ in range(RUNS + 1):
+        spent, began = _processor_s(), time.perf_counter()
         action()
-        return time.perf_counter() - began
+        runs.append((time.perf_counter() - began, _processor_s() - spent))
+    clock, processor = zip(*runs[1:], strict=True)
+    return Row(what, statistics.median(clock), statistics.median(processor), goal_s)
 
-    return median_of(timed)
+
+def _processor_s() -> float:
+    """Processor time of this process so far, and of those it has waited for."""
+    children = os.times()
+    return time.process_time() + children.children_user + children.children_system
 
 
-def median_of(measure: Callable[[], float]) -> float:
-    """Median of what is measured."""
-    return statistics.median([measure() for _ in range(RUNS + 1)][1:])
+def told(what: str, measure: Callable[[], float], goal_s: float | None = None) -> Row:
+    """Return the row of something that measures itself."""
+    return Row(what, statistics.median([measure() for _ in range(RUNS + 1)][1:]), goal_s=goal_s)
 
 
 def process(*arguments: str | Path) -> Callable[[], None]:
@@ -81,26 +91,23 @@ def score(source: Path) -> Score:
 def rows(folder: Path) -> Iterator[Row]:
     """Measure everything, in the order of the table."""
     glb = folder / "sentence.glb"
-    yield Row("azee --help, whole process", median(process("--help")), 0.3)
-    yield Row("azee check SENTENCE, whole process", median(process("check", SENTENCE)), 0.5)
-    yield Row(
-        "azee compile SENTENCE -o GLB, whole process",
-        median(process("compile", SENTENCE, "-o", glb)),
-        2.0,
-    )
+    yield timed("azee --help, whole process", process("--help"), 0.3)
+    yield timed("azee check SENTENCE, whole process", process("check", SENTENCE), 0.5)
+    compiling = process("compile", SENTENCE, "-o", glb)
+    yield timed("azee compile SENTENCE -o GLB, whole process", compiling, 2.0)
     rig = load_rig()
     scores = {"tree": score(TREE), "SENTENCE": score(SENTENCE)}
     goals = {"tree": 0.05, "SENTENCE": 0.5}
     for name, found in scores.items():
-        yield Row(f"{name}: solving alone", median_of(partial(solving, found, rig)), goals[name])
+        yield told(f"{name}: solving alone", partial(solving, found, rig), goals[name])
     for name, found in scores.items():
-        yield Row(f"{name}: score to clip, with solving", median(partial(perform, found, rig)))
-    yield Row("SENTENCE: text to score", median(partial(score, SENTENCE)))
+        yield timed(f"{name}: score to clip, with solving", partial(perform, found, rig))
+    yield timed("SENTENCE: text to score", partial(score, SENTENCE))
     made = perform(scores["SENTENCE"], rig)
     for suffix in SUFFIXES:
         path = folder / f"sentence{suffix}"
-        yield Row(f"SENTENCE: writing {suffix}", median(partial(made.save, path)))
-    yield Row("loading the body", median(load_rig))
+        yield timed(f"SENTENCE: writing {suffix}", partial(made.save, path))
+    yield timed("loading the body", load_rig)
 
 
 def solving(found: Score, rig: Rig) -> float:
@@ -110,7 +117,7 @@ def solving(found: Score, rig: Rig) -> float:
 
 def main() -> None:
     """Print the table."""
-    print(f"{'SENTENCE is ' + SENTENCE.stem:<58}{'median':>12}{'goal':>12}")
+    print(f"{'SENTENCE is ' + SENTENCE.stem:<48}{'clock':>12}{'processor':>12}{'goal':>12}")
     with tempfile.TemporaryDirectory() as folder:
         for row in rows(Path(folder)):
             print(row, flush=True)

@@ -181,6 +181,7 @@ def test_a_direction_that_is_none_is_nan(expr: Vector) -> None:
         (Orient(BoneAxis.DIR, Bone("palm", S), Relation.ALONG, UP), math.pi, "rad"),
         (Orient(BoneAxis.DIR, Bone("palm", S), Relation.ACROSS, FORWARD), 0.0, "rad"),
         (Orient(BoneAxis.DIR, Bone("palm", S), Relation.ACROSS, UP), math.pi / 2, "rad"),
+        (Orient(BoneAxis.DIR, Bone("palm", S), Relation.ACROSS, Vec(0.0, -1.0, 1.0)), 0.25, "pi"),
         (Orient(BoneAxis.NRM, Bone("head"), Relation.ALONG, Vec(0.0, 3.0, 3.0)), 0.25, "pi"),
         (Look(FORWARD), 0.0, "rad"),
         (Look(Vec(1.0, 0.0, 1.0)), 0.25, "pi"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -9,7 +11,17 @@ from stick_body import stick_body
 
 from azee_rig.rig import Rig
 from azee_solver import kernels
-from azee_solver.constraint import BoneAxis, Rotate
+from azee_solver.constraint import (
+    BoneAxis,
+    Constraint,
+    Look,
+    LookAt,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+)
+from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import (
     Between,
@@ -40,6 +52,7 @@ from azee_solver.geometry import (
     VTranslate,
 )
 from azee_solver.program import Collisions, Cost, Program, Row
+from azee_solver.residuals import Tolerance, lower
 from azee_solver.tape import Tape
 
 S, W = Side.STRONG, Side.WEAK
@@ -230,3 +243,39 @@ def test_a_tape_gives_the_evaluator_s_points(expr: Point) -> None:
     value = case.program([row])(case.q, np.empty(0))
     wanted = case.evaluator.point(expr, case.rig.chain.frames(case.q), 0.25) - place
     assert value == pytest.approx(float(wanted @ wanted), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "constraint",
+    [
+        Place(Site("I_TIP", S), FreePoint(0.1, -0.2, 0.3)),
+        Place(Site("I_TIP", S), FreePoint(0.1, -0.2, 0.3), 0.2),
+        Place(Site("I_TIP", S), TIP_W, 0.1),
+        Orient(BoneAxis.DIR, PALM_S, Relation.ALONG, VECTORS[5]),
+        Orient(BoneAxis.NRM, PALM_S, Relation.ACROSS, VECTORS[6]),
+        Rotate(HEAD, Vec(1.0, 0.5, 0.0), 0.4),
+        Rotate(HEAD, Dir(PALM_S), 0.4),
+        Look(Dir(PALM_S)),
+        LookAt(TIP_W),
+    ],
+    ids=lambda c: type(c).__name__,
+)
+def test_a_miss_by_the_tolerance_costs_one(constraint: Constraint) -> None:
+    """With tolerances as wide as the miss; chords stand for angles, so angles must be small."""
+    case = Case(7)
+    wanted, _ = case.evaluator.residual(constraint, case.rig.chain.frames(case.q), case.q)
+    tolerance = Tolerance(float(wanted), float(wanted))
+    asked = {0: Demand(constraint)}
+    residuals = lower(case.tape, asked, tolerance, {})
+    program = case.program(list(residuals.rows))
+    value = program(case.q, np.empty(0))
+    ratio = residuals.ratios(program.gaps(), asked, tolerance)[0]
+    assert ratio == pytest.approx(1.0, rel=1e-9)
+    if isinstance(constraint, Place):
+        assert value == pytest.approx(1.0, rel=1e-9)
+    elif isinstance(constraint, Orient | Rotate):
+        across = isinstance(constraint, Orient) and constraint.relation is Relation.ACROSS
+        chord = math.sin(wanted) if across else 2 * math.sin(wanted / 2)
+        assert value == pytest.approx((chord / wanted) ** 2, rel=1e-9)
+    else:
+        assert 0.0 < value < 2.0  # two eyes

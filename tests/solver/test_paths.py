@@ -91,3 +91,11 @@ def test_a_curve_along_a_line_is_the_line() -> None:
     np.testing.assert_allclose(paths.through(line, 0.5), [2, 0, 0], atol=1e-4)
     np.testing.assert_allclose(paths.through(line[[0, 0, 2]], 0.5), [2, 0, 0], atol=1e-4)
     np.testing.assert_allclose(paths.through(line[[1, 1]], 0.5), line[1])
+
+
+def test_a_short_step_between_long_ones_makes_no_loop() -> None:
+    """What centripetal knots are for: uniform ones loop here."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [1.05, 0.05, 0], [1, 1, 0]], dtype=np.float64)
+    curve = paths.through(corners, np.linspace(0, 1, 801))
+    turns = np.diff(np.unwrap(np.arctan2(*np.diff(curve, axis=0)[:, 1::-1].T)))
+    assert np.abs(turns).sum() < np.radians(160)

@@ -23,10 +23,12 @@ import numpy as np
 from numba import njit, types
 from numpy.typing import NDArray
 
-from azee_solver.tape import COMBINE, CONSTANT, CROSS, POINT, TURN, UNIT, VECTOR
-
 Reals = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+# Operations of a tape; its table is in `tape`. They stand here, as all that compiled code is made
+# of, because the kept result is made anew only when this file changes.
+CONSTANT, POINT, VECTOR, COMBINE, UNIT, CROSS, TURN = range(7)
 
 # Kinds of residual.
 MEET, AT_DISTANCE, PERPENDICULAR = range(3)

@@ -55,10 +55,9 @@ from azee_solver.geometry import (
     WorldPoint,
     depends_on,
 )
+from azee_solver.kernels import COMBINE, CONSTANT, CROSS, POINT, TURN, UNIT, VECTOR
 
 Array = NDArray[np.float64]
-
-CONSTANT, POINT, VECTOR, COMBINE, UNIT, CROSS, TURN = range(7)
 
 
 class DegenerateError(Exception):

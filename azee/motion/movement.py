@@ -60,7 +60,7 @@ def movement(
         own = [p for p in postures if limb in p.limbs]
         held = [
             any(
-                a.holds(limb, needed) and b.holds(limb, needed)
+                a.holds(limb, needed) or b.holds(limb, needed)
                 for needed in holders.all_through(Interval(a.time, b.time))
             )
             for a, b in pairwise(own)

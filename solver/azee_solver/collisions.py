@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 
 NEAR_M = 0.014
 """Capsules of the bones before and after a site take part in its contacts if so near to it."""
-MARGIN_M = 0.002
-"""Capsules hold most of the skin, not all: hands are kept so far from trunk and head."""
+MARGIN_M = 0.004
+"""Capsules hold most of the skin, not all: arms and hands are kept so far from trunk and head."""
 BESIDE_M, FAR_M = 0.04, 0.1
 """Capsules beyond a palm take part wholly up to the one distance and not at all from the other."""
 SLACK_M, CALLED_SLACK_M, PALM_SLACK_M = 0.001, 0.002, 0.009
@@ -178,10 +178,9 @@ def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, Array,
     same_hand = ~(relative & others).any(axis=1)
     straight = rig.chain.frames(np.zeros(len(rig.coordinates)))
     radii[same_hand] = np.minimum(radii, _distances(rig, pairs, straight))[same_hand]
-    hand = np.logical_or(*(anatomy.paths[:, rig.bones[f"palm_{side}"].node] for side in "LR"))
     arm = np.logical_or(*(anatomy.paths[:, rig.bones[f"arm_{side}"].node] for side in "LR"))
     i, j = capsules.node[pairs].T
-    margin = np.where((hand[i] & ~arm[j]) | (hand[j] & ~arm[i]), MARGIN_M, 0.0)
+    margin = np.where(arm[i] ^ arm[j], MARGIN_M, 0.0)
     return pairs, radii, margin, relative
 
 

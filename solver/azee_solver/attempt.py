@@ -219,7 +219,7 @@ class _Attempt:
         overlap = self.program.section(kernels.OVERLAP_WEIGHT)
         kept, stiff = posture.copy(), overlap.copy()
         overlap *= POLISH_OVERLAP
-        easy = np.array([v not in self.body.presets for v in self.program.free])
+        easy = np.array([v not in self.body.presets for v in self.program.free], dtype=np.bool_)
         posture[easy, 1] *= POLISH_EASE
         posture[:, 4] *= POLISH_EASE
         closer = self.descend(result.q[self.program.free])

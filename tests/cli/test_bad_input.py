@@ -161,6 +161,7 @@ USAGE = {
     "which utterance": ["score", "one.azee", "-e", ":arbre", "--utterance", "1"],
     "utterances count from one": ["score", "one.azee", "--utterance", "0"],
     "nothing to check": ["check"],
+    "nothing to format": ["fmt"],
 }
 
 

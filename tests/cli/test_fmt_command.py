@@ -80,7 +80,8 @@ def test_a_file_with_mistakes_is_left_alone_and_the_others_are_not(
     assert "error[cannot-read]" in captured.err
     assert read("faulty.azee") == faulty
     assert read("crooked.azee") == STRAIGHT
-    assert sorted(path.name for path in Path().iterdir()) == ["crooked.azee", "faulty.azee", "straight.azee"]
+    names = sorted(path.name for path in Path().iterdir())
+    assert names == ["crooked.azee", "faulty.azee", "straight.azee"]
 
 
 def test_it_needs_no_rules() -> None:

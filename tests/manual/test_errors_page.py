@@ -1,0 +1,124 @@
+"""docs/language/errors.md: every code has its entry, every example its message."""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from diagnostic_codes import UnknownCodeError, codes, codes_in
+from pages import Block, blocks, page, pairs
+
+from azee.cli.main import run
+from azee.compilation import lacks
+from azee.lang.program import load
+from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.render import render
+from azee_grammar.source import Source
+from azee_rig.rig import Rig
+
+PAGE = page("errors.md")
+BLOCKS = list(blocks(PAGE))
+EXAMPLES = [(block, shown) for block, shown in pairs(BLOCKS) if block.kind == "azee"]
+COMMANDS = [block for block in BLOCKS if block.kind == "console"]
+ENTRIES = re.findall(r"^### `([a-z0-9-]+)`$", PAGE, re.M)
+
+FILES = {
+    "north/tea.azee": b"def tea\n    :bien\n",
+    "south/tea.azee": b"def tea\n    :mignon\n",
+    "rules-only.azee": b"def tea\n    :bien\n",
+    "latin-1.azee": ":âge\n".encode("latin-1"),
+}
+"""What the examples find beside them."""
+
+
+@pytest.fixture(autouse=True)
+def _beside_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, data in FILES.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_bytes(data)
+    monkeypatch.chdir(tmp_path)
+
+
+def _reported(block: Block, request: pytest.FixtureRequest) -> tuple[Diagnostic, ...]:
+    """All that is wrong with an example; `body-without=NAME` has a body play it that lacks it."""
+    Path("example.azee").write_text(block.text, encoding="utf-8", newline="\n")
+    program = load(Source("example.azee", block.text))
+    if (name := block.options.get("body-without")) is None:
+        return program.check()
+    assert program.check() == ()
+    return lacks(program.score(), _without(name, request.getfixturevalue("signer")))
+
+
+def _without(name: str, rig: Rig) -> Rig:
+    return dataclasses.replace(
+        rig,
+        name="small",
+        bones={key: bone for key, bone in rig.bones.items() if key != name},
+        sites={key: site for key, site in rig.sites.items() if key != name},
+        face_morphs={key: morph for key, morph in rig.face_morphs.items() if key != name},
+    )
+
+
+def _place(found: Diagnostic) -> str | None:
+    return None if found.span is None else f"{found.span.line}:{found.span.column}"
+
+
+@pytest.mark.parametrize(("block", "shown"), EXAMPLES, ids=str)
+def test_an_example_has_its_mistake_at_its_place_in_these_words(
+    block: Block, shown: Block | None, request: pytest.FixtureRequest
+) -> None:
+    reported = _reported(block, request)
+    place = next((word for word in block.options if ":" in word), None)
+    assert [(d.code, _place(d)) for d in reported] == [(block.options["error"], place)]
+    assert shown is not None
+    assert shown.kind == "text"
+    assert shown.text == render(reported[0]) + "\n"
+
+
+@pytest.mark.parametrize("block", COMMANDS, ids=str)
+def test_a_command_says_what_is_printed(block: Block, capsys: pytest.CaptureFixture[str]) -> None:
+    command, _, said = block.text.partition("\n")
+    program, *arguments = shlex.split(command.removeprefix("$ "))
+    assert program == "azee"
+    assert run(arguments) == 1
+    captured = capsys.readouterr()
+    told = (captured.out + captured.err).replace("\\", "/")
+    assert told.rstrip("\n") == said.rstrip("\n")
+    assert f"error[{_entry(block)}]" in said
+
+
+def _entry(block: Block) -> str:
+    """The entry in which a block stands."""
+    above = "\n".join(PAGE.split("\n")[: block.line])
+    last: str = re.findall(r"^### `([a-z0-9-]+)`$", above, re.M)[-1]
+    return last
+
+
+def test_every_code_has_its_entry_and_no_other() -> None:
+    assert len(ENTRIES) == len(set(ENTRIES))
+    assert set(ENTRIES) == codes()
+
+
+def test_every_entry_has_an_example_of_its_code_and_a_remedy() -> None:
+    for entry in PAGE.split("\n### ")[1:]:
+        code = entry.split("`")[1]
+        assert f"```azee error={code} " in entry or "```console\n" in entry, code
+        assert entry.count("**Remedy.**") == 1, code
+
+
+def test_every_code_is_in_the_table() -> None:
+    table = PAGE.split("\n## ")[1]
+    assert re.findall(r"\[`([a-z0-9-]+)`\]\(#\1\)", table) == ENTRIES
+
+
+def test_codes_are_found_however_they_are_chosen() -> None:
+    made = (
+        "def f(x):\n    code = 'a' if x else 'b'\n    raise Diagnostic(code) from fault('c', x)\n"
+    )
+    assert codes_in(ast.parse(made), "f") == {"a", "b", "c"}
+    with pytest.raises(UnknownCodeError):
+        codes_in(ast.parse("def f(code):\n    return Diagnostic(code)\n"), "f")

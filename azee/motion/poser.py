@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.bound import Bound, limbs_asked
+from azee.motion.curves import transition_s
 from azee.motion.limbs import TRUNK, Limbs
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
-from azee.motion.rest import Rest
+from azee.motion.rest import CARRIERS, Rest
 from azee.motion.spans import Spans
 from azee.motion.standing import solve_beside
 from azee.motion.transpath import Travel, passing_limbs
@@ -58,6 +59,8 @@ class Poser:
     rest: Rest
     current: Array = field(init=False)
     last: KeyPosture | None = field(init=False, default=None)
+    _let_go: dict[str, Fraction] = field(init=False, default_factory=dict)
+    """Since when a trunk, head or eyes that others still constrain are free of what ended."""
 
     def __post_init__(self) -> None:
         self.current = np.array(self.coordinates.idle)
@@ -71,7 +74,8 @@ class Poser:
         passing = passing_limbs(time, bounds, self.travels.at(time))
         last = self.last
         current = self.rest.applied(self.current, last, time)
-        if last is not None and _nothing_new(demands, last):
+        relieved = self._relieved(time, bounds)
+        if last is not None and not relieved and _nothing_new(demands, last):
             keyed = asked | (last.limbs if set(demands) == set(last.demands) else frozenset())
             indices = [v for limb in keyed for v in self.limbs.members[limb]]
             if np.array_equal(current[indices], last.coordinates[indices]):
@@ -84,9 +88,9 @@ class Poser:
         going_on = self._going_on(time, bounds)
         constrained = frozenset[str]().union(*(b.limbs for b in bounds)) | self._carried(bounds)
         reference = np.where(self._of(constrained), self.coordinates.idle, current)
-        start = np.where(self._of(going_on), current, reference)
+        start = np.where(self._of(going_on - relieved), current, reference)
         beside = None
-        if last is not None:
+        if last is not None and not relieved:
             beside = solve_beside(
                 last, bounds, demands, current, start, reference,
                 limbs=self.limbs, solver=self.solver,
@@ -102,10 +106,45 @@ class Poser:
 
     def accept(self, posture: KeyPosture) -> KeyPosture:
         """Go on from a posture."""
+        relieved = (
+            frozenset[str]() if posture.reused else self._relieved(posture.time, posture.bounds)
+        )
+        let_go = self._let_go_by(posture.bounds)
+        self._let_go = {limb: since for limb, since in let_go.items() if limb not in relieved}
         self.current = np.array(posture.coordinates)
         self.rest.note(posture)
         self.last = posture
         return posture
+
+    def _let_go_by(self, bounds: Sequence[Bound]) -> dict[str, Fraction]:
+        """Account for the carriers that a block has let go while others go on constraining them."""
+        out = dict(self._let_go)
+        before = self.last.bounds if self.last is not None else ()
+        begun = frozenset[str]().union(*(b.limbs for b in bounds if b not in before))
+        constrained = frozenset[str]().union(*(b.limbs for b in bounds))
+        staying = {b.constraint for b in bounds}
+        for limb in CARRIERS:
+            if limb in begun or limb not in constrained:
+                out.pop(limb, None)
+                continue
+            for b in before:
+                if limb in b.limbs and b.constraint not in staying:
+                    end = b.requirement.interval.end
+                    out[limb] = max(end, out.get(limb, end))
+        return out
+
+    def _relieved(self, time: Fraction, bounds: Sequence[Bound]) -> frozenset[str]:
+        """Carriers that have had the time to come back from what has let them go.
+
+        So a head that a glance has bent comes up again though its chin is still raised.
+        """
+        idle = self.coordinates.idle
+        return frozenset(
+            limb
+            for limb, since in self._let_go_by(bounds).items()
+            for members in (self.limbs.members[limb],)
+            if time - since >= transition_s(self.current[members], idle[members])
+        )
 
     def _of(self, limbs: frozenset[str]) -> NDArray[np.bool_]:
         """(V,) which coordinates belong to some limbs."""

@@ -355,6 +355,32 @@ def test_a_look_turns_eyes_and_lids_and_leaves_the_arms_at_rest() -> None:
     assert any("eyeLook" in unit for unit in animation.clip.units)
 
 
+def test_a_neck_that_a_glance_has_bent_comes_back_though_the_chin_stays_up() -> None:
+    chin = Rotate(Bone("head"), Vec(-1, 0, 0), math.radians(6))
+    score = sync(
+        block("GAZE", "0", ".2", LookAt(FreePoint(-0.5, 0.05, 0.5))),
+        block("CHIN", ".1", "1.9", chin),
+        block("LATER", "1", ".2", at(TIP, 0, 0, 0)),
+    )
+    animation = played(score)
+    assert animation.report.met, animation.report.constraints
+    neck = [i for i, n in enumerate(rig().coordinates.names) if n.startswith("neck")]
+    q = animation.clip.coordinates[:, neck]
+    assert np.abs(q[frame_at(animation, 0.2)]).max() > math.radians(10)
+    assert np.abs(q[frame_at(animation, 1.0)]).max() < math.radians(1)
+
+
+def test_a_levelled_head_goes_straight_to_where_something_turns_it() -> None:
+    lean = Orient(BoneAxis.DIR, Bone("back_2"), Relation.ALONG, Vec(0, 1, 0.4))
+    turn = Rotate(Bone("head"), UP, math.radians(15))
+    score = sync(block("LEAN", "0", "2", lean), block("TURN", "1.2", ".4", turn))
+    animation = played(score)
+    assert animation.report.met, animation.report.constraints
+    neck = animation.clip.coordinates[:, rig().coordinates.index["neck.flexion"]]
+    assert neck[frame_at(animation, 0.0)] < -math.radians(8)
+    assert neck[frame_at(animation, 0.4)] < 0.6 * neck[frame_at(animation, 0.0)]
+
+
 def test_left_handers_sign_with_the_left() -> None:
     left = played(TWO_KEYS, dominant=Side.LEFT)
     assert left.report.met

@@ -20,8 +20,10 @@ from PIL import Image
 from plain_bvh import PlainBvh
 from programs import Node, Python
 
+import azee
 from azee.cli.main import run
 from azee.formats import SUFFIXES
+from azee_solver.penetration import mesh_penetration
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SOURCES = sorted(EXAMPLES.glob("*/*.azee"))
@@ -62,7 +64,8 @@ def test_the_folder_tells_of_it(source: Path) -> None:
     readme = (source.parent / "README.md").read_text(encoding="utf-8")
     assert f"azee compile {source.name}" in readme or f"/{source.name}" in readme
     assert source.with_suffix(".png").name in readme
-    assert Image.open(source.with_suffix(".png")).width > 300
+    with Image.open(source.with_suffix(".png")) as picture:
+        assert picture.width > 300
 
 
 @pytest.mark.slow
@@ -130,3 +133,37 @@ def test_the_library_call_of_the_readme_works(python: Python, tmp_path: Path) ->
     (code,) = re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S)
     python("-c", code, expect=0)
     assert (tmp_path / "tree.glb").stat().st_size > 1000
+
+
+@pytest.mark.slow
+@each
+def test_no_arm_enters_trunk_or_head_at_a_key_posture(source: Path) -> None:
+    made = azee.compile(source, life=False)
+    frames = {int(np.abs(made.clip.times - time).argmin()) for time in made.animation.key_times}
+    found = [
+        (round(float(made.clip.times[frame]), 2), p.limb, p.body, p.depth_m)
+        for frame in sorted(frames)
+        for p in mesh_penetration(made.rig, made.clip.coordinates[frame])
+        if p.body in ("trunk", "head") and p.depth_m > 3 * MILLIMETRE
+    ]
+    assert found == []
+
+
+@pytest.mark.slow
+def test_tree_makes_the_problems_of_the_paper_and_meets_them(built: Path) -> None:
+    report = _document(built / "tree" / "tree.report.json")
+    first = [p for p in report["problems"] if p["time_s"] == 0]
+    names = [p["name"] for p in first]
+    assert len(names) >= 11
+    weak, strong, hand = (
+        next(i for i, name in enumerate(names) if part in name)
+        for part in ("H_BACK_L", "EL_R", "thumb_R_3")
+    )
+    assert weak < strong < hand
+    assert len(first[hand]["constraints"]) == 4
+    assert {first[strong]["merged_into"], first[hand]["merged_into"]} == {names[weak]}
+    residuals = {c["subject"]: c["residual"] for c in report["constraints"]}
+    assert residuals["place EL_R"] < MILLIMETRE
+    assert residuals["dir of f_arm_R"] < np.radians(0.5)
+    missed = {c["subject"] for c in report["constraints"] if not c["met"]}
+    assert missed <= {"nrm of thumb_R_2"}

@@ -139,6 +139,8 @@ class Automaton:
 
 def _flat(parts: _Parts) -> list[Any]:
     """Unfold parts of parts, without recursion: a repetition of n parts is n deep on its left."""
+    if _Parts not in map(type, parts):
+        return parts
     out: list[Any] = []
     stack: list[Any] = [parts]
     while stack:

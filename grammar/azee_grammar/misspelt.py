@@ -129,7 +129,7 @@ def too_many_words(span: Span, most: int) -> Diagnostic:
     """Answer the first word that is not read any more."""
     return Diagnostic(
         "size-limit",
-        f"this text has more than {most:,} words and comments; the rest of it is not read",
+        f"this text has more than {most:,} words, signs and comments; the rest of it is not read",
         span,
         help="divide it into several files",
     )

@@ -38,8 +38,9 @@ bench: $(READY) ## how long things take
 examples: $(READY) ## every example as GLB, BVH, JSON, SVG and PNG, into out/examples
 	@$(RUN) examples/build.py --out out/examples
 
-pictures: $(READY) ## draw the pictures that the examples' folders keep anew
+pictures: $(READY) ## draw the pictures of the examples' folders and of the tutorial anew
 	@$(RUN) examples/build.py --out out/examples --keep-pictures
+	@$(RUN) docs/language/pictures.py
 
 wheel-test: $(READY) node ## the fast tests against the built wheel, outside the checkout
 	@bash tests/project/wheel.sh $(RUN)

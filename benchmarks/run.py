@@ -100,6 +100,7 @@ def rows(folder: Path) -> Iterator[Row]:
     goals = {"tree": 0.05, "SENTENCE": 0.5}
     for name, found in scores.items():
         yield told(f"{name}: solving alone", partial(solving, found, rig), goals[name])
+    yield told("tree: why its thumb misses", partial(explaining, scores["tree"], rig))
     for name, found in scores.items():
         yield timed(f"{name}: score to clip, with solving", partial(perform, found, rig))
     yield timed("SENTENCE: text to score", partial(score, SENTENCE))
@@ -113,6 +114,11 @@ def rows(folder: Path) -> Iterator[Row]:
 def solving(found: Score, rig: Rig) -> float:
     """Return the time that solving all key postures of a score takes."""
     return perform(found, rig).report.solve_s
+
+
+def explaining(found: Score, rig: Rig) -> float:
+    """Return the time that the reasons of a score's misses take."""
+    return perform(found, rig).report.explain_s
 
 
 def main() -> None:

@@ -96,6 +96,11 @@ class MotionReport:
         """Time spent solving."""
         return float(sum(p.report.solve_s for p in self.postures if not p.reused))
 
+    @property
+    def explain_s(self) -> float:
+        """Time spent finding out why what misses misses."""
+        return float(sum(p.report.explain_s for p in self.postures if not p.reused))
+
     def as_json(self) -> dict[str, object]:
         """Return the report as plain data."""
         return {
@@ -109,6 +114,7 @@ class MotionReport:
             "problems": [row for p in self.postures if not p.reused for row in _problems(p)],
             "evaluations": self.evaluations,
             "solve_s": self.solve_s,
+            "explain_s": self.explain_s,
             "constraints": [c.as_json() for c in self.constraints],
             "limits": {"max_excess_rad": self.max_excess_rad, "joint": self.excess_joint},
             "penetration": [row for p in self.postures for row in _penetration(p)],

@@ -9,6 +9,7 @@ lets it be met.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
@@ -28,7 +29,10 @@ AT_LIMIT_RAD = 1e-6
 
 
 class Diagnosis:
-    """Reasons for the constraints of one moment, given the posture that was found."""
+    """Reasons for the constraints of one moment, given the posture that was found.
+
+    spent_s: how long they have taken to find so far.
+    """
 
     def __init__(
         self,
@@ -42,9 +46,16 @@ class Diagnosis:
         self.firm = Body(body.rig, body.evaluator, q, body.presets, body.options, body.constraints)
         self.ghost = Body(body.rig, body.evaluator, q, {}, options, body.constraints)
         self.dominant = body.evaluator.binding.dominant
+        self.spent_s = 0.0
 
     def reason(self, i: int, undefined: bool) -> str:
         """Return why demand i is not met, in one phrase."""
+        began = time.perf_counter()
+        found = self._reason(i, undefined)
+        self.spent_s += time.perf_counter() - began
+        return found
+
+    def _reason(self, i: int, undefined: bool) -> str:
         constraint = self.demands[i].constraint
         if undefined:
             return "its direction is undefined: a vector in it has no length"

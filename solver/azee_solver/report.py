@@ -53,7 +53,8 @@ class SolveReport:
     coordinates: (V,) radians, inside the limits. problems: in the order of their dependencies.
     constraints: those that joints can meet, in the order of the demands. penetration: capsules
     that overlap beyond meant contacts, deepest first. reached: coordinates that the constraints
-    may move. solve_s: wall-clock time, the only part that differs from run to run.
+    may move. solve_s, explain_s: wall-clock time of finding the posture, and of finding out why
+    some constraints miss; nothing else differs from run to run.
     """
 
     coordinates: NDArray[np.float64]
@@ -63,6 +64,7 @@ class SolveReport:
     evaluations: int
     solve_s: float
     reached: frozenset[int]
+    explain_s: float = 0.0
 
     @property
     def met(self) -> bool:

@@ -107,16 +107,24 @@ class _Moment:
     # Solving ----------------------------------------------------------------------------------
 
     def solve(self) -> _State:
-        """Solve with as little of the body as will do."""
+        """Solve with as little of the body as will do.
+
+        Where nothing meets all, postures that move less of the body stand against those that move
+        more. Settling gives up at least one constraint in every group that misses, which tells
+        beforehand who cannot win.
+        """
         reach = [Reach.OWN] * len(self.problems)
         tried = [(reach, self._in_order(reach, None))]
         while wider := self._widened(*tried[-1]):
             tried.append((wider, self._in_order(wider, tried[-1][1])))
         if not tried[-1][1].missed():
             return tried[-1][1]
-        settled = [self._in_order(reach, state, settle=True) for reach, state in tried]
-        best = settled[0]
-        for state in settled[1:]:
+        widest = self._in_order(*tried[-1], settle=True)
+        fewest = len(self._misses(widest))
+        able = [(r, s) for r, s in tried[:-1] if sum(bool(g.missed()) for g in s.results) <= fewest]
+        settled = [self._in_order(reach, state, settle=True) for reach, state in able]
+        best = (*settled, widest)[0]
+        for state in (*settled, widest)[1:]:
             if self._prefers(state, best):
                 best = state
         return best
@@ -290,14 +298,16 @@ class _Moment:
             )
         q.setflags(write=False)
         free = frozenset().union(*(group.free for group in state.groups))
+        explain_s = diagnosis.spent_s
         return SolveReport(
             q,
             tuple(self._problem_report(p, state.groups) for p in range(len(self.problems))),
             tuple(constraints),
             self.body.obstacles.overlaps(frames),
             self.body.evaluations,
-            time.perf_counter() - began,
+            time.perf_counter() - began - explain_s,
             free | frozenset(self.body.presets) - self.options.fixed,
+            explain_s,
         )
 
     def _reason(self, diagnosis: Diagnosis, i: int, undefined: bool) -> str:

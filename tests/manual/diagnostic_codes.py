@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from pathlib import Path
 
-from pages import ROOT
+import azee
+import azee_grammar
+import azee_rig
+import azee_solver
 
-PACKAGES = ("azee", "grammar/azee_grammar", "solver/azee_solver", "rig/azee_rig")
+PACKAGES = (azee, azee_grammar, azee_solver, azee_rig)
+"""As they are imported: from the tree, or from an installed wheel."""
 
 MAKERS = {"Diagnostic", "BindingError", "LayoutError", "fault", "_problem"}
 """Whoever is called by one of these names takes the code as its first argument."""
@@ -21,7 +26,7 @@ def codes() -> set[str]:
     """Return all codes. Raises: UnknownCodeError: one of them is hidden."""
     found: set[str] = set()
     for package in PACKAGES:
-        for path in sorted((ROOT / package).rglob("*.py")):
+        for path in sorted(Path(package.__path__[0]).rglob("*.py")):
             tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
             found |= codes_in(tree, str(path))
     return found

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from rich.status import Status
 
 DONE, FAULT, USAGE, MISSED, INTERRUPTED = 0, 1, 2, 3, 130
-"""Exit codes: done; the input is at fault; wrong use; --strict found a miss; stopped by Ctrl-C."""
+"""Exit codes: done; the input is at fault; wrong use; nothing is wrong, but --strict found a miss
+or a search nothing; stopped by Ctrl-C."""
 
 
 def show(diagnostics: Iterable[Diagnostic]) -> None:

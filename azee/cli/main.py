@@ -15,6 +15,7 @@ import click
 from azee.cli.check import check
 from azee.cli.compile import compile_
 from azee.cli.console import DONE, FAULT, INTERRUPTED, show
+from azee.cli.find import find
 from azee.cli.fmt import fmt
 from azee.cli.rules import rules
 from azee.cli.score import score
@@ -31,6 +32,7 @@ azee.add_command(compile_)
 azee.add_command(check)
 azee.add_command(fmt)
 azee.add_command(score)
+azee.add_command(find)
 azee.add_command(rules)
 
 

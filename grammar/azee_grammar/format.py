@@ -65,6 +65,11 @@ def format_file(text: File | Source, *, published: bool = False) -> str:
     return weave(printer.lines, source, parsed.comments, INDENT)
 
 
+def one_line(expr: Expr) -> str:
+    """Return an expression in canonical form but on one line, however long; comments are lost."""
+    return _flat(expr)
+
+
 class _Printer:
     """Lays expressions out as lines, each with the range of the text it comes from."""
 

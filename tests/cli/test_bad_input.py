@@ -162,6 +162,7 @@ USAGE = {
     "utterances count from one": ["score", "one.azee", "--utterance", "0"],
     "nothing to check": ["check"],
     "nothing to format": ["fmt"],
+    "nowhere to search": ["find", ":arbre"],
 }
 
 

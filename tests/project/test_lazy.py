@@ -22,6 +22,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("compile", "--help"): set(),
     ("check", "--quiet", "text.azee"): {"lark"},
     ("check", "--format", "json", "text.azee"): {"lark"},
+    ("find", "--quiet", "key ?d ?c", "text.azee"): {"lark"},
     ("fmt", "--check", "text.azee"): {"lark"},
     ("score", "text.azee"): {"lark"},
     ("score", "text.azee", "-o", "score.svg"): {"lark"},

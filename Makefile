@@ -10,7 +10,7 @@ READY := $(ENV)/.ready
 PACKAGES := tests/node/node_modules/.package-lock.json
 TYPED := tests benchmarks examples
 
-.PHONY: help demo test check format bench examples pictures wheel-test node
+.PHONY: help demo test check format bench fuzz examples pictures wheel-test node
 
 help: ## what there is
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
@@ -34,6 +34,11 @@ format: $(READY) ## put every file into the one format
 
 bench: $(READY) ## how long things take
 	@$(RUN) benchmarks/run.py
+
+SECONDS ?= 60
+fuzz: $(READY) ## look for texts that break the language, for SECONDS=60; on Linux
+	@$(RUN) -c "import atheris" 2>/dev/null || $(RUN) -m pip install --quiet -c constraints.txt atheris
+	@$(RUN) tests/fuzz/search.py $(SECONDS)
 
 examples: $(READY) ## every example as GLB, BVH, JSON, SVG and PNG, into out/examples
 	@$(RUN) examples/build.py --out out/examples

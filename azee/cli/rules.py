@@ -1,38 +1,59 @@
-"""`azee rules`: the rules that ship, and what one of them means and takes."""
+"""`azee rules`: the rules at hand, and what one of them means and takes."""
 
 from __future__ import annotations
 
 import shutil
 import textwrap
+import unicodedata
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from azee_grammar.diagnostic import AZeeError, Diagnostic
+from azee.cli.text import library_option
+from azee_grammar.diagnostic import AZeeError, Diagnostic, Severity
 
 if TYPE_CHECKING:
     from azee.lang.rule import Rule
+    from azee.lang.scope import Namespace
 
 
 INDENT = 12
 
 
-@click.command(short_help="The rules that ship.")
+@click.command(short_help="The rules that ship, and yours.")
 @click.argument("name", required=False)
-def rules(name: str | None) -> None:
-    """List the rules that ship, or show NAME: meaning, arguments, source, an example."""
-    shipped = _shipped()
+@click.option(
+    "--search",
+    metavar="TEXT",
+    help="Only rules with TEXT in their name, meaning, source or arguments.",
+)
+@library_option
+def rules(name: str | None, search: str | None, libraries: Sequence[Path]) -> None:
+    """List the rules that ship, or show NAME: meaning, arguments, source, an example.
+
+    With --library the rules of the libraries in a folder too.
+    """
+    known = {**_shipped(), **_added(libraries)}
     if name is None:
-        click.echo(
-            "\n\n".join(_listed(library, found) for library, found in shipped.items() if found)
-        )
+        wanted = "" if search is None else _plain(search)
+        matching = {
+            library: [rule for rule in found if wanted in _searched(rule)]
+            for library, found in known.items()
+        }
+        lists = [_listed(library, found) for library, found in matching.items() if found]
+        if search is not None and not lists:
+            raise AZeeError(Diagnostic("unknown-rule", f"no rule speaks of `{search}`", None))
+        click.echo("\n\n".join(lists))
         return
+    if search is not None:
+        raise click.UsageError("NAME shows one rule; --search lists some")
     plain = name.removeprefix(":")
-    chosen = [rule for found in shipped.values() for rule in found if rule.name == plain]
+    chosen = [rule for found in known.values() for rule in found if rule.name == plain]
     if not chosen:
-        raise AZeeError(_unknown(plain, [r.name for found in shipped.values() for r in found]))
-    click.echo("\n\n".join("\n".join(_shown(rule)) for rule in chosen))
+        raise AZeeError(_unknown(plain, [r.name for found in known.values() for r in found]))
+    click.echo("\n\n".join("\n".join(_shown(rule, libraries)) for rule in chosen))
 
 
 def _shipped() -> dict[str, list[Rule]]:
@@ -40,12 +61,40 @@ def _shipped() -> dict[str, list[Rule]]:
     from azee.lang.library import shipped_library
     from azee_grammar.library import shipped_names
 
-    return {
-        library: sorted(
-            shipped_library(library).namespace.rules.values(), key=lambda rule: rule.name
-        )
-        for library in shipped_names()
-    }
+    return {library: _by_name(shipped_library(library).namespace) for library in shipped_names()}
+
+
+def _added(folders: Sequence[Path]) -> dict[str, list[Rule]]:
+    """Return the rules of the libraries in some folders. Raises: AZeeError: one has a mistake."""
+    from azee.lang.library import names_in
+    from azee.lang.program import load
+    from azee_grammar.source import Source
+
+    out = {}
+    for folder in folders:
+        for library in names_in(folder):
+            program = load(Source("<none>", f"use '{library}\n"), [folder])
+            if mistakes := [d for d in program.check() if d.severity is Severity.ERROR]:
+                raise AZeeError(*mistakes)
+            for used in program.librarian.libraries:
+                if used.namespace.name == library:
+                    out[library] = _by_name(used.namespace)
+    return out
+
+
+def _by_name(namespace: Namespace) -> list[Rule]:
+    return sorted(namespace.rules.values(), key=lambda rule: rule.name)
+
+
+def _searched(rule: Rule) -> str:
+    entries = (rule.entry("meaning") or "", rule.entry("source") or "")
+    return _plain(" ".join((rule.name, *entries, *(name for name, _ in rule.parameters))))
+
+
+def _plain(text: str) -> str:
+    """Without case and accents, so that `age` finds `âge`."""
+    apart = unicodedata.normalize("NFKD", text.casefold())
+    return "".join(c for c in apart if not unicodedata.combining(c))
 
 
 def _listed(library: str, found: Sequence[Rule]) -> str:
@@ -54,7 +103,7 @@ def _listed(library: str, found: Sequence[Rule]) -> str:
     return "\n".join([library, *lines])
 
 
-def _shown(rule: Rule) -> Iterator[str]:
+def _shown(rule: Rule, libraries: Sequence[Path]) -> Iterator[str]:
     yield f":{rule.name}"
     yield from _field("library", rule.library or "")
     for entry in ("meaning", "source"):
@@ -65,26 +114,27 @@ def _shown(rule: Rule) -> Iterator[str]:
         if parameter.default is not None:
             default = f"by default {' '.join(parameter.default.span.text.split())}"
         yield from _field("" if i else "arguments", f"'{parameter.name}  {default}")
-    yield from _field("example", _example(rule))
+    yield from _field("example", _example(rule, libraries))
 
 
-def _example(rule: Rule) -> str:
+def _example(rule: Rule, libraries: Sequence[Path]) -> str:
     """Return the rule's own example, else its application, which needs no argument."""
     if own := rule.entry("example"):
         return own
     given = ", ".join(f"'{name} = …" for name, mandatory in rule.parameters if mandatory)
     if given:
         return f":{rule.name}({given})"
-    return f"key(1, :#{rule.name})" if _is_posture(rule) else f":{rule.name}"
+    return f"key(1, :#{rule.name})" if _is_posture(rule, libraries) else f":{rule.name}"
 
 
-def _is_posture(rule: Rule) -> bool:
+def _is_posture(rule: Rule, libraries: Sequence[Path]) -> bool:
     """Whether the rule's result is a set of constraints, which a key makes a score of."""
     from azee.lang.program import load
     from azee.lang.values import Kind
     from azee_grammar.source import Source
 
-    return load(Source("<none>", "")).value(f":{rule.name}").kind is Kind.CONSTRAINTS
+    program = load(Source("<none>", f"use '{rule.library}\n"), libraries)
+    return program.value(f":{rule.name}").kind is Kind.CONSTRAINTS
 
 
 def _field(name: str, text: str) -> Sequence[str]:
@@ -99,4 +149,4 @@ def _unknown(name: str, known: Sequence[str]) -> Diagnostic:
 
     close = [f"`{other}`" for other in nearest(name, known)]
     hint = f"did you mean {' or '.join(close)}?" if close else "`azee rules` lists them all"
-    return Diagnostic("unknown-rule", f"no rule `{name}` ships", None, help=hint)
+    return Diagnostic("unknown-rule", f"there is no rule `{name}`", None, help=hint)

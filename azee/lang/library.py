@@ -159,6 +159,16 @@ class Librarian:
         return Diagnostic("library-not-found", message, use.library.span, help=hint)
 
 
+def names_in(folder: Path) -> list[str]:
+    """Names of the libraries that a folder offers to `use`, sorted.
+
+    Raises: OSError: the folder cannot be read.
+    """
+    inside = [path for path in folder.iterdir() if _is_plain(path.name)]
+    texts = {path.stem for path in inside if path.suffix in SUFFIXES}
+    return sorted(texts | {path.name for path in inside if path.is_dir() and _texts(path)})
+
+
 def _is_plain(name: str) -> bool:
     return not name.startswith(".") and not any(c in '/\\:*?"<>|\0' for c in name)
 

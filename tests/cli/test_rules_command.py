@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from azee.cli.main import run
@@ -56,5 +58,32 @@ def test_an_unknown_rule_gets_the_nearest(capsys: pytest.CaptureFixture[str]) ->
     assert run(["rules", "info-abuot"]) == 1
     captured = capsys.readouterr()
     assert captured.out == ""
-    assert captured.err.startswith("error[unknown-rule]: no rule `info-abuot` ships\n")
+    assert captured.err.startswith("error[unknown-rule]: there is no rule `info-abuot`\n")
     assert "info-about" in captured.err
+
+
+def test_a_search_finds_by_meaning_without_accents(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["rules", "--search", "CINEMA"]) == 0
+    names = [line.split()[0] for line in capsys.readouterr().out.splitlines()[1:]]
+    assert names == ["cinema", "cinéma"]
+    assert run(["rules", "--search", "sondern"]) == 0
+    assert "nicht-sondern" in capsys.readouterr().out
+
+
+def test_a_search_in_vain_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["rules", "--search", "zeppelin"]) == 1
+    assert capsys.readouterr().err == "error[unknown-rule]: no rule speaks of `zeppelin`\n\n"
+
+
+def test_a_folder_adds_its_libraries(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "mine").mkdir()
+    text = 'def tea\n    \'meaning "a hot drink"\n    :bien\n'
+    (tmp_path / "mine" / "drinks.azee").write_text(text, encoding="utf-8")
+    (tmp_path / "notes.txt").write_text("no library", encoding="utf-8")
+    assert run(["rules", "--library", str(tmp_path)]) == 0
+    assert "mine\n  tea  a hot drink\n" in capsys.readouterr().out
+    assert run(["rules", "tea", "--library", str(tmp_path)]) == 0
+    assert "a hot drink" in capsys.readouterr().out
+    (tmp_path / "mine" / "drinks.azee").write_text("def tea\n    :bein\n", encoding="utf-8")
+    assert run(["rules", "--library", str(tmp_path)]) == 1
+    assert "unknown-rule" in capsys.readouterr().err

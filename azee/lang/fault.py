@@ -40,8 +40,17 @@ def fault(
 
 
 def together(faults: Sequence[Fault]) -> Fault:
-    """Return one fault with the diagnostics of all."""
-    return Fault(*(d for f in faults for d in f.diagnostics))
+    """Return one fault with the diagnostics of all, each once.
+
+    A rule that is applied twice is wrong twice at the same place; told every time, that would
+    double with every rule around it.
+    """
+    distinct: dict[tuple[str, str, Span | None], Diagnostic] = {}
+    for problem in faults:
+        for diagnostic in problem.diagnostics:
+            key = (diagnostic.code, diagnostic.message, diagnostic.span)
+            distinct.setdefault(key, diagnostic)
+    return Fault(*distinct.values())
 
 
 def did_you_mean(name: str, known: Iterable[str], sigil: str = "") -> str | None:

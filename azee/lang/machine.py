@@ -21,8 +21,8 @@ class Limits:
     depth: int = 200
     """Expressions inside one another, bodies of called rules included; also of values."""
     steps: int = 1_000_000
-    """Expressions evaluated and elements visited; applying a rule and laying out a block of a
-    score count as `HEAVY` steps each, since that is what they take."""
+    """Expressions evaluated and elements visited; applying a rule, leaving one with a mistake and
+    laying out a block of a score count as `HEAVY` steps each, since that is what they take."""
     size: int = 200_000
     """Parts of one value, counted as a tree: what is used twice counts twice."""
 
@@ -105,6 +105,7 @@ class Machine:
             value = procedure.body.evaluate(self, names)
         except Fault as problem:
             self.depth = depth
+            self.steps += HEAVY
             raise problem.through(operator.title, span) from None
         if plain:
             self._results[procedure] = value

@@ -38,6 +38,9 @@ class Placement:
 
 
 _Node = tuple[int, Bound]
+
+_MOST_NAMED = 12
+"""Of a longer circle, the first and the last bounds are named."""
 """A bound of the block with that number."""
 
 
@@ -180,6 +183,11 @@ class Bounds:
 
     def _circle(self, waiting: list[_Node], node: _Node) -> LayoutError:
         circle = [*waiting[waiting.index(node) :], node]
-        steps = " needs ".join(f"`{self._names[b]}:{bound.value}`" for b, bound in circle)
+        named = [f"`{self._names[b]}:{bound.value}`" for b, bound in circle]
+        if len(named) > _MOST_NAMED:
+            left_out = len(named) - _MOST_NAMED
+            half = _MOST_NAMED // 2
+            named[half:-half] = [f"{left_out:,} more, of which the last"]
+        steps = " needs ".join(named)
         message = f"these bounds wait for each other: {steps}"
         return LayoutError("cyclic-sync", message, min(b for b, _ in circle))

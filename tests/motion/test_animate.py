@@ -460,3 +460,12 @@ def test_a_mode_that_is_none_is_an_error() -> None:
         animate(TWO_KEYS, rig(), mode="wild")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="frames per second"):
         animate(TWO_KEYS, rig(), fps=0)
+
+
+def test_flat_has_one_track_with_all_keys() -> None:
+    animation = played(TWO_KEYS)
+    (track,) = animation.tracks
+    assert track.path == ()
+    assert track.coordinates == tuple(rig().coordinates.names)
+    assert track.keys_s == tuple(sorted({float(p.time) for p in animation.report.postures}))
+    assert (track.start_s, track.end_s) == (0.0, 0.8)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -77,8 +77,15 @@ class Librarian:
     the given folders, then among those that ship. Names are plain: no text reads elsewhere.
     """
 
-    def __init__(self, folders: Sequence[Path], resolving: Resolving, core: Namespace) -> None:
+    def __init__(
+        self,
+        folders: Sequence[Path],
+        resolving: Resolving,
+        core: Namespace,
+        read: Callable[[Path], Source] = read_source,
+    ) -> None:
         self._folders = folders
+        self._read_source = read
         self._resolving = resolving
         self._core = core
         self._libraries: dict[Path, Library] = {}
@@ -128,7 +135,7 @@ class Librarian:
         library.diagnostics += _same_but_for_case(files)
         for file in files:
             try:
-                source = read_source(file)
+                source = self._read_source(file)
             except AZeeError as problem:
                 library.diagnostics += problem.diagnostics
                 continue

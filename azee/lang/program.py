@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -27,6 +27,7 @@ from azee.lang.values import Kind, ScoreValue, Value
 from azee.score.layout import in_sequence
 from azee.score.score import Score
 from azee_grammar.diagnostic import AZeeError, Diagnostic, Severity
+from azee_grammar.files import read_source
 from azee_grammar.parser import parse, parse_expression
 from azee_grammar.source import Source, Span
 from azee_grammar.syntax import Application, Expr, File, RuleName, Utterance
@@ -64,7 +65,8 @@ class Program:
     def utterances(self) -> tuple[UtteranceScore, ...]:
         """All utterances of the text, evaluated. Raises: AZeeError: all that is wrong with it."""
         self._require_sound(self.check())
-        return tuple(u for u in self._evaluated[0] if u is not None)
+        judged = (self._judged(item) for item in self._items())
+        return tuple(score for score, _ in judged if score is not None)
 
     def score(self, utterance: int | None = None, dominant: Side = Side.RIGHT) -> Score:
         """Return the score of one utterance, by its number from 1, or of all in sequence.
@@ -81,19 +83,27 @@ class Program:
             raise AZeeError(self._no_utterance(None, 0))
         return scores[0] if len(scores) == 1 else in_sequence(scores, BETWEEN_UTTERANCES_S)
 
-    def check(self, dominant: Side = Side.RIGHT) -> tuple[Diagnostic, ...]:
+    def check(
+        self, dominant: Side = Side.RIGHT, *, sound: Container[Utterance] = ()
+    ) -> tuple[Diagnostic, ...]:
         """Return all that is wrong with the text, its rules that nobody calls included.
 
-        `dominant` is the hand for which orientations that exclude each other are looked for.
+        Args: dominant: the hand for which orientations that exclude each other are looked for.
+            sound: utterances that are known to be right and are passed over: they were, and
+            neither the rules of the text nor its libraries have changed since.
         """
-        scores, diagnostics = self._evaluated
-        audited = [
-            problem
-            for utterance in scores
-            if utterance is not None
-            for problem in audit(utterance.score, dominant, self._span_of, utterance.span)
-        ]
-        return _tidy((*diagnostics, *audited), self.source)
+        for rule in self._own_rules():
+            _ = rule.procedure
+        items = [item for item in self._items() if item not in sound]
+        found = [d for item in items for d in self.problems(item, dominant)]
+        return _tidy((*self.found, *found, *self._rule_diagnostics()), self.source)
+
+    def problems(self, item: Utterance, dominant: Side = Side.RIGHT) -> tuple[Diagnostic, ...]:
+        """Return what is wrong with one utterance of the text, in the order of discovery."""
+        utterance, found = self._judged(item)
+        if utterance is None:
+            return found
+        return (*found, *audit(utterance.score, dominant, self._span_of, utterance.span))
 
     def evaluate(self, text: str, name: str = "<expression>") -> UtteranceScore:
         """Evaluate one expression, which sees the rules of the text, to a score.
@@ -124,14 +134,17 @@ class Program:
         assert value is not None, "nothing was reported, so there is a value"
         return expr, value
 
+    def _judged(self, item: Utterance) -> tuple[UtteranceScore | None, tuple[Diagnostic, ...]]:
+        """Evaluate an utterance, once."""
+        if id(item) not in self._scores:
+            found: list[Diagnostic] = []
+            score = self._utterance(item.expr, found)
+            self._scores[id(item)] = score, tuple(found)
+        return self._scores[id(item)]
+
     @cached_property
-    def _evaluated(self) -> tuple[tuple[UtteranceScore | None, ...], tuple[Diagnostic, ...]]:
-        diagnostics = list(self.found)
-        for rule in self._own_rules():
-            _ = rule.procedure
-        scores = tuple(self._utterance(item.expr, diagnostics) for item in self._items())
-        diagnostics += self._rule_diagnostics()
-        return scores, tuple(diagnostics)
+    def _scores(self) -> dict[int, tuple[UtteranceScore | None, tuple[Diagnostic, ...]]]:
+        return {}
 
     def _items(self) -> Iterator[Utterance]:
         if own_name(self.file) is None:
@@ -187,17 +200,22 @@ class Program:
 
 
 def load(
-    source: Source, libraries: Sequence[Path] = (), limits: Limits = DEFAULT_LIMITS
+    source: Source,
+    libraries: Sequence[Path] = (),
+    limits: Limits = DEFAULT_LIMITS,
+    read: Callable[[Path], Source] = read_source,
 ) -> Program:
     """Read a text and the libraries it uses; nothing is evaluated yet.
 
-    `libraries` are folders in which `use` looks, after the folder of the text. What is wrong
-    shows in `Program.check`.
+    What is wrong shows in `Program.check`.
+
+    Args: libraries: folders in which `use` looks, after the folder of the text.
+        read: reads the texts of libraries; an editor knows newer ones than the disk.
     """
     parsed = parse(source)
     resolving = Resolving(Machine(limits))
     core = shipped_library(CORE).namespace
-    librarian = Librarian(tuple(libraries), resolving, core)
+    librarian = Librarian(tuple(libraries), resolving, core, read)
     namespace = Namespace(None)
     path = Path(source.name)
     folder = path.parent if path.is_file() else None

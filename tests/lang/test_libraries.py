@@ -10,6 +10,8 @@ from evaluations import found, problems, program
 from azee.lang.program import evaluate_expression, load
 from azee_grammar.diagnostic import AZeeError
 from azee_grammar.files import read_source
+from azee_grammar.source import Source
+from azee_grammar.syntax import Utterance
 
 
 def _write(folder: Path, files: dict[str, str]) -> Path:
@@ -160,3 +162,26 @@ def test_utterances_play_one_second_apart() -> None:
     assert loaded.score().duration == 7
     assert loaded.score(2) == loaded.utterances[1].score
     assert loaded.utterances[2].span.line == 5
+
+
+def test_an_editor_reads_the_texts_of_libraries_itself(tmp_path: Path) -> None:
+    (tmp_path / "signs.azee").write_text("def a\n    :chat\n", encoding="utf-8")
+    main = tmp_path / "main.azee"
+    main.write_text("use 'signs\n:b\n", encoding="utf-8")
+
+    def unsaved(path: Path) -> Source:
+        return Source(str(path), path.read_text(encoding="utf-8").replace("def a", "def b"))
+
+    source = read_source(main)
+    assert [d.code for d in load(source).check()] == ["unknown-rule"]
+    assert load(source, read=unsaved).check() == ()
+
+
+def test_an_utterance_known_to_be_right_is_passed_over() -> None:
+    program = load(Source("text", ":chat\n:nobody\n:nothing\n"))
+    right, wrong, _ = program.file.items
+    assert isinstance(right, Utterance)
+    assert isinstance(wrong, Utterance)
+    assert program.problems(right) == ()
+    assert [d.code for d in program.problems(wrong)] == ["unknown-rule"]
+    assert len(program.check(sound={wrong})) == 1

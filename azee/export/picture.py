@@ -17,6 +17,7 @@ from azee_rig.mesh import BodyMesh, vertex_normals
 from azee_rig.rig import Rig
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 SUN = np.array([0.28, 0.72, 0.95]) / np.linalg.norm([0.28, 0.72, 0.95])
 LIGHTS = np.array(
@@ -65,6 +66,8 @@ VIEWS: Mapping[str, tuple[str, tuple[float, float, float], float]] = {
     "face": ("face", (0.0, 0.03, 1.0), 0.165),
     "face three-quarter": ("face", (-0.7, 0.05, 0.8), 0.165),
     "face side": ("face", (-1.0, 0.0, 0.0), 0.165),
+    "head left": ("face", (1.0, 0.0, 0.0), 0.165),
+    "head back": ("face", (0.0, 0.03, -1.0), 0.165),
     "right hand": ("palm_R", (0.0, 0.1, 1.0), 0.14),
     "left hand": ("palm_L", (0.0, 0.1, 1.0), 0.14),
 }
@@ -76,7 +79,8 @@ _LENS_RAD = np.radians(20.0)
 def camera(rig: Rig, q: Floats, view: str) -> Camera:
     """Return a named camera for a body in posture q (V,): the views stand still but the hands'.
 
-    `right hand palm` and `right hand back` look onto the palm's own faces, from wherever it is.
+    `right hand palm`, `back`, `thumb`, `little` and `tips` look onto that side of the palm, from
+    wherever it is.
     Raises: KeyError: no such view.
     """
     frames = rig.chain.frames(q)
@@ -84,10 +88,12 @@ def camera(rig: Rig, q: Floats, view: str) -> Camera:
         if view.startswith(f"{hand} "):
             node = rig.bones[bone].node
             R = frames.rotations[node]
+            thumb = R[:, 0] * (1.0 if bone.endswith("R") else -1.0)
             towards = {
                 "palm": R[:, 2],
                 "back": -R[:, 2],
-                "thumb": R[:, 0] * (1.0 if bone.endswith("R") else -1.0),
+                "thumb": thumb,
+                "little": -thumb,
                 "tips": R[:, 1],
             }[view.removeprefix(f"{hand} ")]
             middle = frames.positions[node] + 0.075 * R[:, 1]
@@ -131,7 +137,7 @@ def render(
     vertices = np.array(vertices, dtype=np.float64)
     triangles = np.array(mesh.triangles)
     normals = vertex_normals(vertices, mesh.triangles)
-    screen, inverse_w = _projected(vertices, camera, width, height)
+    screen, inverse_w = projected(vertices, camera, width, height)
     depth = np.full((height, width), 1e30)
     seen = np.full((height, width), -1, dtype=np.int32)
     fill(screen, triangles, depth, seen)
@@ -212,8 +218,11 @@ def contact_sheet(
     return sheet
 
 
-def _projected(vertices: Floats, camera: Camera, width: int, height: int) -> tuple[Floats, Floats]:
-    """Screen places (N, 3), the depth affine on the screen, and reciprocal distances (N, 1)."""
+def projected(vertices: Floats, camera: Camera, width: int, height: int) -> tuple[Floats, Floats]:
+    """Screen places (N, 3) of points (N, 3), and the reciprocals of their distances (N, 1).
+
+    Pixels from the upper left; the third is a depth that is affine on the screen.
+    """
     local = (vertices - camera.eye) @ camera.axes.T
     distance = -local[:, 2]
     in_front = distance > 0.01
@@ -228,6 +237,16 @@ def _projected(vertices: Floats, camera: Camera, width: int, height: int) -> tup
         axis=1,
     )
     return np.ascontiguousarray(screen), np.ascontiguousarray(inverse[:, None])
+
+
+def depth_map(vertices: Floats, triangles: Ints, camera: Camera, size: tuple[int, int]) -> Floats:
+    """Distance along the view to what each pixel sees, (H, W) metres; infinite where nothing is."""
+    from azee.export.raster import fill
+
+    screen, _ = projected(vertices, camera, *size)
+    depth = np.full((size[1], size[0]), 1e30)
+    fill(screen, np.array(triangles), depth, np.full(depth.shape, -1, dtype=np.int32))
+    return np.where(depth < 0.0, -1.0 / depth, np.inf)
 
 
 def _shadow_map(target: Floats, reach_m: float) -> Floats:

@@ -15,15 +15,15 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image
 
+from azee.export.atlas import bone_sheet, morph_sheet
 from azee.export.picture import Camera, camera, contact_sheet, picture, render
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 
 Floats = NDArray[np.float64]
 POSTURES = json.loads((Path(__file__).parent / "postures.json").read_text(encoding="utf-8"))
-AXIS_COLOURS = ((200, 60, 50), (40, 150, 60), (50, 90, 210))
 
 
 def posture(rig: Rig, *layers: Mapping[str, float]) -> Floats:
@@ -89,68 +89,6 @@ def face_sheet(rig: Rig) -> Image.Image:
     return contact_sheet(shown[:18], 6)
 
 
-def morph_sheet(rig: Rig) -> Image.Image:
-    """Show every facial morph of AZee that the face can show, at weight 1."""
-    q = np.array(rig.coordinates.idle)
-    return contact_sheet(
-        [
-            (name, picture(rig, q, "face", face(rig, {name: 1.0}), (150, 165)))
-            for name in rig.face_morphs
-        ],
-        12,
-    )
-
-
-def axes_sheet(rig: Rig) -> Image.Image:
-    """Show the zero pose with every bone's axes: x red, dir green, nrm blue."""
-    q = np.clip(np.zeros(len(rig.coordinates)), rig.coordinates.lower, rig.coordinates.upper)
-    hand = ("palm", "thumb", "index", "middle", "ring", "little")
-    trunk = [b for b in rig.bones if not b.startswith(hand)]
-    right_hand = [b for b in rig.bones if b.startswith(hand) and "_R" in b]
-    arms_off = np.array(q)
-    for side in "LR":
-        arms_off[rig.coordinates.index[f"arm_{side}.abduction"]] = np.radians(25.0)
-    palm = camera(rig, arms_off, "right hand back")
-    near = Camera(palm.eye, palm.target, palm.height_rad * 0.9)
-    return contact_sheet(
-        [
-            ("zero pose, front", _with_axes(rig, q, camera(rig, q, "front"), trunk, 0.07)),
-            ("zero pose, from its right", _with_axes(rig, q, camera(rig, q, "side"), trunk, 0.07)),
-            (
-                "arms 25° off, front",
-                _with_axes(rig, arms_off, camera(rig, q, "front"), trunk, 0.07),
-            ),
-            ("right hand, onto its back", _with_axes(rig, arms_off, near, right_hand, 0.016)),
-        ]
-    )
-
-
-def _with_axes(rig: Rig, q: Floats, eye: Camera, bones: list[str], length: float) -> Image.Image:
-    size = (460, 575)
-    image = render(rig.skin(rig.pose(q)), rig.mesh, eye, size)
-    image = Image.blend(image, Image.new("RGB", size, "white"), 0.6)
-    draw = ImageDraw.Draw(image)
-    font = ImageFont.load_default(11)
-    frames = rig.chain.frames(q)
-    scale = size[1] / 2.0 / np.tan(eye.height_rad / 2.0)
-
-    def on_screen(point: Floats) -> tuple[float, float]:
-        x, y, z = eye.axes @ (point - eye.eye)
-        return size[0] / 2.0 - scale * x / z, size[1] / 2.0 + scale * y / z
-
-    for bone in bones:
-        nodes = rig.bones[bone]
-        start = frames.positions[nodes.origin_node]
-        for axis, colour in enumerate(AXIS_COLOURS):
-            end = start + length * frames.rotations[nodes.node][:, axis]
-            draw.line([on_screen(start), on_screen(end)], fill=colour, width=2)
-        x, y = on_screen(start)
-        draw.ellipse([x - 2, y - 2, x + 2, y + 2], fill=(20, 20, 40))
-        if not bone.endswith("_L"):
-            draw.text((x + 5, y - 13), bone, fill=(20, 20, 40), font=font)
-    return image
-
-
 def main(folder: Path) -> None:
     """Write all sheets."""
     rig = load_rig()
@@ -159,7 +97,7 @@ def main(folder: Path) -> None:
         ("hands", hand_sheet),
         ("faces", face_sheet),
         ("morphs", morph_sheet),
-        ("axes", axes_sheet),
+        ("axes", bone_sheet),
     ):
         _small(sheet(rig)).save(folder / f"{name}.png", optimize=True)
 

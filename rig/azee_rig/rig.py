@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_rig.chain import Chain
+from azee_rig.chain import Chain, Frames
 from azee_rig.coordinates import Coordinates
 from azee_rig.drive import Drive
 from azee_rig.mesh import BodyMesh, read_mesh
@@ -41,6 +41,15 @@ class RigSite:
     node: int
     position: Floats
     normal: Floats
+
+    def point(self, frames: Frames) -> Floats:
+        """Where it is in some postures, (…, 3) metres in the world."""
+        rotation = frames.rotations[..., self.node, :, :]
+        return np.asarray(frames.positions[..., self.node, :] + rotation @ self.position)
+
+    def outward(self, frames: Frames) -> Floats:
+        """Outward unit normal of the skin there, (…, 3) in the world."""
+        return np.asarray(frames.rotations[..., self.node, :, :] @ self.normal)
 
 
 @dataclass(frozen=True, eq=False)

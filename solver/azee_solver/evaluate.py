@@ -159,14 +159,11 @@ class Evaluator:
 
     def site(self, site: Site, frames: Frames) -> Array:
         """World position of a site, (…, 3). Raises BindingError."""
-        bound = self.binding.site(site)
-        rotation = frames.rotations[..., bound.node, :, :]
-        return np.asarray(frames.positions[..., bound.node, :] + rotation @ bound.position)
+        return self.binding.site(site).point(frames)
 
     def normal(self, site: Site, frames: Frames) -> Array:
         """Outward normal of the skin at a site, (…, 3). Raises BindingError."""
-        bound = self.binding.site(site)
-        return np.asarray(frames.rotations[..., bound.node, :, :] @ bound.normal)
+        return self.binding.site(site).outward(frames)
 
     def axis(self, bone: Bone, axis: BoneAxis, frames: Frames) -> Array:
         """Return a bone's dir or nrm, (…, 3). Raises BindingError."""

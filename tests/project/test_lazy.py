@@ -20,6 +20,8 @@ sys.exit(code)
 LOADS: dict[tuple[str, ...], set[str]] = {
     ("--help",): set(),
     ("compile", "--help"): set(),
+    ("rig", "--help"): set(),
+    ("rig", "sites", "--format", "json"): {"numpy"},
     ("check", "--quiet", "text.azee"): {"lark"},
     ("check", "--format", "json", "text.azee"): {"lark"},
     ("find", "--quiet", "key ?d ?c", "text.azee"): {"lark"},

@@ -1,0 +1,271 @@
+"""`azee rig`: what a body has, as tables, JSON or pictures.
+
+Tables speak in degrees and millimetres; JSON in radians and metres, as all machine formats do.
+"""
+
+from __future__ import annotations
+
+import math
+import shutil
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from azee.cli.body import load_body
+from azee.cli.console import news, show_json
+from azee.cli.outputs import check_outputs, with_suffix
+
+if TYPE_CHECKING:
+    from azee_rig.rig import Rig
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+Row = dict[str, Any]
+
+rig_option = click.option(
+    "--rig", "body", metavar="R", default="signer", show_default=True,
+    help="A body by name, or its folder.",
+)  # fmt: skip
+format_option = click.option(
+    "--format", "form", type=click.Choice(["text", "json"]), default="text",
+    help="json: one object on standard output, in metres and radians.",
+)  # fmt: skip
+
+
+def picture_option(shown: str) -> Callable[[Command], Command]:
+    """Return the option `--picture OUT.png`, with what it shows for its help."""
+    return click.option(
+        "--picture", metavar="OUT.png", type=click.Path(path_type=Path),
+        callback=with_suffix(".png"), help=shown,
+    )  # fmt: skip
+
+
+@click.group("rig", short_help="What a body has: sites, bones, limits, morphs.")
+def rig() -> None:
+    """Show what AZee's names mean on a body."""
+
+
+@rig.command()
+@rig_option
+@format_option
+@picture_option("Labelled dots on the whole body, the head and the right hand.")
+def sites(body: str, form: str, picture: Path | None) -> None:
+    """List the sites: bone, place, outward normal, description.
+
+    Places are those in the posture that the mesh was modelled in.
+    """
+    loaded = load_body(body)
+    if picture:
+        _draw("sites", loaded, picture)
+    rows = list(_sites(loaded))
+    if form == "json":
+        show_json({"rig": loaded.name, "sites": rows})
+    elif not picture:
+        _table(
+            ("site", "bone", "left mm", "up mm", "fwd mm", "normal", "description"),
+            [
+                (row["name"], row["bone"], *_mm(row["position_m"]), _triple(row["normal"]),
+                 row["description"])
+                for row in rows
+            ],
+        )  # fmt: skip
+
+
+@rig.command()
+@rig_option
+@format_option
+@picture_option("The zero pose with every bone's axes: x red, dir green, nrm blue.")
+def bones(body: str, form: str, picture: Path | None) -> None:
+    """List the bones: parent, coordinates, proximal joint, dir and nrm in the zero pose."""
+    loaded = load_body(body)
+    if picture:
+        _draw("bones", loaded, picture)
+    rows = list(_bones(loaded))
+    if form == "json":
+        show_json({"rig": loaded.name, "bones": rows})
+    elif not picture:
+        _table(
+            ("bone", "parent", "left mm", "up mm", "fwd mm", "dir", "nrm", "coordinates"),
+            [
+                (row["name"], row["parent"] or "", *_mm(row["position_m"]), _triple(row["dir"]),
+                 _triple(row["nrm"]), " ".join(row["coordinates"]))
+                for row in rows
+            ],
+        )  # fmt: skip
+
+
+@rig.command()
+@rig_option
+@format_option
+@picture_option("Each coordinate of trunk, head and right side at both limits.")
+def limits(body: str, form: str, picture: Path | None) -> None:
+    """List how far each coordinate goes, counted from the zero pose."""
+    loaded = load_body(body)
+    if picture:
+        _draw("limits", loaded, picture)
+    c = loaded.coordinates
+    if form == "json":
+        bounds = zip(c.names, c.lower.tolist(), c.upper.tolist(), strict=True)
+        listed = [{"coordinate": n, "lower_rad": a, "upper_rad": b} for n, a, b in bounds]
+        show_json({"rig": loaded.name, "limits": listed})
+    elif not picture:
+        _table(
+            ("coordinate", "from °", "to °"),
+            [(n, _deg(a), _deg(b)) for n, a, b in zip(c.names, c.lower, c.upper, strict=True)],
+        )
+
+
+@rig.command()
+@rig_option
+@format_option
+@picture_option("Refused: `azee rig limits` has the pictures.")
+def coordinates(body: str, form: str, picture: Path | None) -> None:
+    """List the coordinates: bone, idle and bind posture, stiffness, the nodes that it turns."""
+    if picture:
+        raise click.UsageError(
+            "a coordinate has no place to be drawn at: "
+            "`azee rig limits --picture` shows each at both its limits"
+        )
+    loaded = load_body(body)
+    rows = list(_coordinates(loaded))
+    if form == "json":
+        show_json({"rig": loaded.name, "coordinates": rows})
+    else:
+        _table(
+            ("coordinate", "bone", "idle °", "bind °", "stiffness", "turns"),
+            [
+                (row["name"], row["bone"], _deg(row["idle_rad"]), _deg(row["bind_rad"]),
+                 f"{row['stiffness']:g}", " ".join(turn["node"] for turn in row["turns"]))
+                for row in rows
+            ],
+        )  # fmt: skip
+
+
+@rig.command()
+@rig_option
+@format_option
+@picture_option("Every facial morph that this body can show, at weight 1.")
+def morphs(body: str, form: str, picture: Path | None) -> None:
+    """List the morphs: what each moves at weight 1, and those that this body cannot show."""
+    loaded = load_body(body)
+    if picture:
+        _draw("morphs", loaded, picture)
+    rows = list(_morphs(loaded))
+    if form == "json":
+        show_json({"rig": loaded.name, "morphs": rows})
+    elif not picture:
+        _table(("morph", "moves", "description"), [_morph_line(row) for row in rows])
+
+
+def _sites(loaded: Rig) -> Iterator[Row]:
+    from azee_grammar.vocabulary import SITES
+
+    frames = loaded.chain.frames(loaded.coordinates.bind)
+    for name, site in loaded.sites.items():
+        yield {
+            "name": name,
+            "bone": site.bone,
+            "position_m": site.point(frames).tolist(),
+            "normal": site.outward(frames).tolist(),
+            "description": SITES[name].description,
+        }
+
+
+def _bones(loaded: Rig) -> Iterator[Row]:
+    from azee_grammar.vocabulary import BONES
+    from azee_rig.chain import DIR, NRM
+
+    frames = loaded.chain.frames(0.0 * loaded.coordinates.bind)
+    for name, nodes in loaded.bones.items():
+        yield {
+            "name": name,
+            "parent": BONES[name],
+            "position_m": frames.positions[nodes.origin_node].tolist(),
+            "dir": frames.rotations[nodes.node][:, DIR].tolist(),
+            "nrm": frames.rotations[nodes.node][:, NRM].tolist(),
+            "coordinates": [n for n in loaded.coordinates.names if n.partition(".")[0] == name],
+        }
+
+
+def _coordinates(loaded: Rig) -> Iterator[Row]:
+    c, chain = loaded.coordinates, loaded.chain
+    for i, name in enumerate(c.names):
+        yield {
+            "name": name,
+            "bone": name.partition(".")[0],
+            "lower_rad": float(c.lower[i]),
+            "upper_rad": float(c.upper[i]),
+            "idle_rad": float(c.idle[i]),
+            "bind_rad": float(c.bind[i]),
+            "stiffness": float(c.stiffness[i]),
+            "turns": [
+                {
+                    "node": node,
+                    "axis": ("x", "dir", "nrm")[chain.dof_axis[d]],
+                    "share": float(chain.dof_scale[d]),
+                }
+                for b, node in enumerate(chain.names)
+                for d in range(chain.dof_start[b], chain.dof_start[b + 1])
+                if chain.dof_coordinate[d] == i
+            ],
+        }
+
+
+def _morphs(loaded: Rig) -> Iterator[Row]:
+    from azee_grammar.vocabulary import MORPHS
+
+    for name, entry in MORPHS.items():
+        yield {
+            "name": name,
+            "kind": entry.kind,
+            "description": entry.description,
+            "coordinates_rad": dict(loaded.skeletal_morphs.get(name, {})),
+            "units": dict(loaded.face_morphs.get(name, {})),
+            "not_shown": loaded.unexpressed_morphs.get(name),
+        }
+
+
+def _morph_line(row: Row) -> tuple[str, str, str]:
+    angles = [f"{name} {_deg(angle)}°" for name, angle in row["coordinates_rad"].items()]
+    units = [f"{unit} {weight:g}" for unit, weight in row["units"].items()]
+    return row["name"], ", ".join(angles + units) or f"— {row['not_shown']}", row["description"]
+
+
+def _draw(what: str, loaded: Rig, path: Path) -> None:
+    """Draw a sheet, save it and say so. Raises: AZeeError: cannot-write."""
+    from azee.export.atlas import write_sheet
+    from azee.formats import writing
+
+    check_outputs([path])
+    with writing(path):
+        write_sheet(what, loaded, path)
+    news(f"wrote {path}")
+
+
+def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Write a table as wide as the terminal, or as 120 columns where there is none."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None, header_style="bold", pad_edge=False)
+    for k, head in enumerate(heads):
+        number = head.endswith((" mm", " °"))
+        table.add_column(head, justify="right" if number else "left", no_wrap=k == 0 or number)
+    for row in rows:
+        table.add_row(*row)
+    width = shutil.get_terminal_size((120, 24)).columns
+    Console(width=width, highlight=False, markup=False, emoji=False).print(table)
+
+
+def _mm(point_m: Sequence[float]) -> tuple[str, str, str]:
+    x, y, z = (f"{1000.0 * v:.1f}" for v in point_m)
+    return x, y, z
+
+
+def _deg(angle_rad: float) -> str:
+    return f"{math.degrees(angle_rad) + 0.0:.1f}"
+
+
+def _triple(unit: Sequence[float]) -> str:
+    return " ".join(f"{v:+.2f}" for v in unit)

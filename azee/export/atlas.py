@@ -1,0 +1,153 @@
+"""Sheets that show what a body has: its sites, the axes of its bones, its limits, its morphs."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from azee.export.files import replace_file
+from azee.export.marks import INK, Mark, View
+from azee.export.picture import Camera, camera, contact_sheet, picture, projected, render
+from azee_rig.rig import Rig
+
+Floats = NDArray[np.float64]
+
+AXIS_COLOURS = ((200, 60, 50), (40, 150, 60), (50, 90, 210))
+HAND = ("palm", "thumb", "index", "middle", "ring", "little")
+SITE_VIEWS: Mapping[str, Sequence[str]] = {
+    "body": ("front", "back", "side"),
+    "head": ("face", "face side", "head left", "head back"),
+    "hand": tuple(f"right hand {side}" for side in ("palm", "back", "thumb", "little", "tips")),
+}
+"""Views that share the sites of a region among them: each is labelled where it is seen best."""
+
+
+def site_sheet(rig: Rig) -> Image.Image:
+    """Show every site as a labelled dot, but those of the left hand, which mirror the right's.
+
+    The body stands in the mesh's own posture. Rings are sites that no view sees, as under an arm.
+    """
+    q = rig.coordinates.bind
+    frames, vertices = rig.chain.frames(q), rig.skin(rig.pose(q))
+    regions: dict[str, list[Mark]] = {region: [] for region in SITE_VIEWS}
+    for name, site in rig.sites.items():
+        region = "hand" if site.bone.startswith(HAND) else _axial_region(site.bone)
+        if region != "hand" or "_R" in site.bone:
+            mark = Mark(name, site.point(frames), site.outward(frames))
+            regions[region].append(mark)
+    panels = []
+    for region, names in SITE_VIEWS.items():
+        views = [View(vertices, rig.mesh, camera(rig, q, name), (460, 560)) for name in names]
+        marks = regions[region]
+        best = np.argmax([view.shown(marks) for view in views], axis=0)
+        for k, (name, view) in enumerate(zip(names, views, strict=True)):
+            own = [mark for mark, b in zip(marks, best, strict=True) if b == k]
+            panels.append((f"{name} ({len(own)} sites)", view.drawn(own)))
+    return contact_sheet(panels, 4)
+
+
+def _axial_region(bone: str) -> str:
+    return "head" if bone.startswith(("head", "eye", "neck")) else "body"
+
+
+def bone_sheet(rig: Rig) -> Image.Image:
+    """Show the zero pose with every bone's axes: x red, dir green, nrm blue."""
+    q = np.clip(np.zeros(len(rig.coordinates)), rig.coordinates.lower, rig.coordinates.upper)
+    trunk = [b for b in rig.bones if not b.startswith(HAND)]
+    right_hand = [b for b in rig.bones if b.startswith(HAND) and "_R" in b]
+    arms_off = np.array(q)
+    for side in "LR":
+        arms_off[rig.coordinates.index[f"arm_{side}.abduction"]] = np.radians(25.0)
+    palm = camera(rig, arms_off, "right hand back")
+    near = Camera(palm.eye, palm.target, palm.height_rad * 0.9)
+    front = camera(rig, q, "front")
+    return contact_sheet(
+        [
+            ("zero pose, front", _with_axes(rig, q, front, trunk, 0.07)),
+            ("zero pose, from its right", _with_axes(rig, q, camera(rig, q, "side"), trunk, 0.07)),
+            ("arms 25° off, front", _with_axes(rig, arms_off, front, trunk, 0.07)),
+            ("right hand, onto its back", _with_axes(rig, arms_off, near, right_hand, 0.016)),
+        ]
+    )
+
+
+def _with_axes(rig: Rig, q: Floats, eye: Camera, bones: list[str], length: float) -> Image.Image:
+    size = (460, 575)
+    image = render(rig.skin(rig.pose(q)), rig.mesh, eye, size)
+    image = Image.blend(image, Image.new("RGB", size, "white"), 0.6)
+    draw = ImageDraw.Draw(image)
+    font = ImageFont.load_default(11)
+    frames = rig.chain.frames(q)
+    for bone in bones:
+        nodes = rig.bones[bone]
+        start = frames.positions[nodes.origin_node]
+        ends = start + length * frames.rotations[nodes.node].T
+        screen = projected(np.vstack([start, ends]), eye, *size)[0][:, :2]
+        (x, y), *tips = ((float(u), float(v)) for u, v in screen)
+        for tip, colour in zip(tips, AXIS_COLOURS, strict=True):
+            draw.line([(x, y), tip], fill=colour, width=2)
+        draw.ellipse([x - 2, y - 2, x + 2, y + 2], fill=INK)
+        if not bone.endswith("_L"):
+            draw.text((x + 5, y - 13), bone, fill=INK, font=font)
+    return image
+
+
+def limit_sheet(rig: Rig) -> Image.Image:
+    """Show each coordinate of trunk, head and right side at both of its limits, all else idle."""
+    c = rig.coordinates
+    shown = []
+    for i, name in enumerate(c.names):
+        if "_L" in name:
+            continue
+        view = _limit_view(name)
+        for limit in (c.lower[i], c.upper[i]):
+            q = np.array(c.idle)
+            q[i] = limit
+            image = picture(rig, q, view, size=(176, 190))
+            shown.append((f"{name} {np.degrees(limit):.0f}°", image))
+    return contact_sheet(shown, 10)
+
+
+def _limit_view(coordinate: str) -> str:
+    """Return the view that shows best how a coordinate moves."""
+    bone = coordinate.partition(".")[0]
+    if bone.startswith("palm"):
+        return "right hand"
+    if bone.startswith(HAND):
+        flexes = coordinate.endswith("flexion") and not bone.startswith("thumb")
+        return "right hand thumb" if flexes else "right hand palm"
+    if bone.startswith("eye"):
+        return "face"
+    return "three-quarter"
+
+
+def morph_sheet(rig: Rig) -> Image.Image:
+    """Show every facial morph of AZee that the face can show, at weight 1."""
+    return contact_sheet(
+        [
+            (name, picture(rig, rig.coordinates.idle, "face", units, (150, 165)))
+            for name, units in rig.face_morphs.items()
+        ],
+        12,
+    )
+
+
+SHEETS: Mapping[str, Callable[[Rig], Image.Image]] = {
+    "sites": site_sheet,
+    "bones": bone_sheet,
+    "limits": limit_sheet,
+    "morphs": morph_sheet,
+}
+
+
+def write_sheet(what: str, rig: Rig, path: str | Path) -> None:
+    """Draw one of SHEETS to a PNG. Raises: OSError: the file cannot be written."""
+    data = io.BytesIO()
+    SHEETS[what](rig).save(data, "PNG", optimize=True)
+    with replace_file(path) as file:
+        file.write(data.getvalue())

@@ -36,13 +36,9 @@ def cubic_spline(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:
     if n == 3:
         curvature[:] = 2.0 * (slopes[1] - slopes[0]) / (x[2] - x[0])
     elif n > 3:
-        A, b = np.zeros((n, n)), np.zeros_like(y)
-        A[0, :3] = h[1], -(h[0] + h[1]), h[0]
-        A[-1, -3:] = h[-1], -(h[-2] + h[-1]), h[-2]
-        i = np.arange(1, n - 1)
-        A[i, i - 1], A[i, i], A[i, i + 1] = h[:-1], 2.0 * (h[:-1] + h[1:]), h[1:]
-        b[1:-1] = 6.0 * np.diff(slopes, axis=0)
-        curvature = np.asarray(np.linalg.solve(A, b))
+        curvature[1:-1] = _not_a_knot(h, 6.0 * np.diff(slopes, axis=0))
+        curvature[0] = curvature[1] + h[0] / h[1] * (curvature[1] - curvature[2])
+        curvature[-1] = curvature[-2] + h[-1] / h[-2] * (curvature[-2] - curvature[-3])
     k = np.clip(np.searchsorted(x, u, side="right") - 1, 0, n - 2)
     right = (u - x[k])[:, None]
     left, width = (x[k + 1] - u)[:, None], h[k][:, None]
@@ -51,3 +47,28 @@ def cubic_spline(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:
         + (y[k] / width - curvature[k] * width / 6.0) * left
         + (y[k + 1] / width - curvature[k + 1] * width / 6.0) * right
     )
+
+
+def _not_a_knot(h: Array, b: Array) -> Array:
+    """Second derivatives at the inner knots, (n − 2, d), by elimination along the diagonal.
+
+    Inside, h₋c₋ + 2(h₋ + h₊)c + h₊c₊ = b. The third derivative does not jump at the second knot:
+    (c₁ − c₀)/h₀ = (c₂ − c₁)/h₁, which takes c₀ out of the first row; alike at the other end. What
+    remains is dominated by its diagonal and needs no pivoting.
+
+    Args: h: (n − 1,) lengths of the pieces. b: (n − 2, d).
+    """
+    diagonal, above, below = 2.0 * (h[:-1] + h[1:]), h[1:-1].copy(), h[1:-1].copy()
+    diagonal[0] += h[0] + h[0] ** 2 / h[1]
+    diagonal[-1] += h[-1] + h[-1] ** 2 / h[-2]
+    above[0] -= h[0] ** 2 / h[1]
+    below[-1] -= h[-1] ** 2 / h[-2]
+    c = np.array(b)
+    for i in range(1, len(c)):
+        share = below[i - 1] / diagonal[i - 1]
+        diagonal[i] -= share * above[i - 1]
+        c[i] -= share * c[i - 1]
+    c[-1] /= diagonal[-1]
+    for i in range(len(c) - 2, -1, -1):
+        c[i] = (c[i] - above[i] * c[i + 1]) / diagonal[i]
+    return c

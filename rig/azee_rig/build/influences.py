@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from azee_rig.coordinates import Coordinates
 from azee_rig.mesh import BodyMesh
+from azee_rig.mirror import mirrored
 from azee_rig.skeleton import Pose, Skeleton
 from azee_rig.skin import joint_frames
 
@@ -34,23 +35,7 @@ def sample_postures(coordinates: Coordinates) -> Floats:
         coordinates.lower, coordinates.upper, (POSTURES, len(coordinates.names))
     )
     drawn = coordinates.idle + REACH * (anywhere - coordinates.idle)
-    return np.vstack([coordinates.bind, coordinates.idle, drawn, _mirrored(coordinates, drawn)])
-
-
-def _mirrored(coordinates: Coordinates, postures: Floats) -> Floats:
-    """Swap the sides; what turns the middle of the body or the gaze sideways turns the other way.
-
-    So both sides of a symmetric body get the same weights.
-    """
-    swapped = str.maketrans("LR", "RL")
-    out = np.empty_like(postures)
-    for i, name in enumerate(coordinates.names):
-        part, _, motion = name.partition(".")
-        sided = "_L" in part or "_R" in part
-        other = f"{part.translate(swapped)}.{motion}" if sided else name
-        turns = motion == "yaw" or (not sided and motion in ("axial", "lateral"))
-        out[:, coordinates.index[other]] = -postures[:, i] if turns else postures[:, i]
-    return out
+    return np.vstack([coordinates.bind, coordinates.idle, drawn, mirrored(coordinates, drawn)])
 
 
 def with_four_influences(mesh: BodyMesh, skeleton: Skeleton, poses: Pose) -> BodyMesh:

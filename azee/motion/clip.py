@@ -47,9 +47,16 @@ class Clip:
 
     def __post_init__(self) -> None:
         frames = len(self.times)
+        if not frames or np.any(np.diff(self.times) <= 0.0):
+            raise ValueError("times do not increase")
         if len(self.coordinates) != frames or self.unit_weights.shape != (frames, len(self.units)):
             raise ValueError("times, coordinates and unit weights do not fit each other")
         for name in ("times", "coordinates", "unit_weights"):
             array = np.array(getattr(self, name), dtype=np.float64)
             array.setflags(write=False)
             object.__setattr__(self, name, array)
+
+    @property
+    def duration_s(self) -> float:
+        """Seconds from the first frame to the last."""
+        return float(self.times[-1] - self.times[0])

@@ -31,6 +31,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee_solver": {"azee_rig", "numpy", "numba", "nlopt"},
     "azee.score": DECLARATIONS,
     "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
+    "azee.assist": {"azee_grammar", "azee.lang", "azee.score"} | DECLARATIONS,
     "azee.motion": {"azee.score", "azee_solver", "azee_rig", "numpy"},
     "azee.export": {"azee.score", "azee.motion", "azee_rig", "numpy", "PIL", "numba", "av"}
     | DECLARATIONS,

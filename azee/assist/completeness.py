@@ -1,0 +1,95 @@
+"""Whether a text typed at a prompt is whole, or more of it must or may follow."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from azee.assist.knowledge import Knowledge
+from azee.assist.lines import Line, read_lines
+from azee.lang.resolve import Resolving
+from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.parser import parse
+from azee_grammar.source import Source
+from azee_grammar.syntax import Utterance
+
+_MISSING = frozenset({"missing-argument", "missing-value"})
+
+
+class Completeness(Enum):
+    """What a prompt does when a line is ended."""
+
+    WHOLE = "whole"
+    """Nothing needs to follow: it is read."""
+    OPEN = "open"
+    """It may be whole, and deeper lines may follow: an empty line ends it."""
+    LACKING = "lacking"
+    """Something is missing: a parenthesis, a body, operands."""
+
+
+def completeness(text: str, knowledge: Knowledge) -> Completeness:
+    """Judge a text by its last item.
+
+    A line alone is whole unless its head lacks operands that must be given; a mistake of another
+    kind is whole too, since more lines would not mend it.
+    """
+    lines = read_lines(text).lines
+    if not lines:
+        return Completeness.WHOLE
+    if _unclosed(lines):
+        return Completeness.LACKING
+    item = _last_item(lines)
+    if item[0].tokens[0].kind == "DEF" and len(item) == 1:
+        return Completeness.LACKING
+    if _logical(item) > 1:
+        return Completeness.OPEN
+    return Completeness.LACKING if _lacks_operands(text, knowledge) else Completeness.WHOLE
+
+
+def _unclosed(lines: tuple[Line, ...]) -> bool:
+    """Whether a parenthesis waits to be closed. `def` and `use` at the margin end the wait."""
+    depth = 0
+    for line in lines:
+        if not line.prefix and line.tokens[0].kind in ("DEF", "USE"):
+            depth = 0
+        for token in line.tokens:
+            if token.kind in ("_OPEN", "_CALL"):
+                depth += 1
+            elif token.kind == "CLOSE":
+                depth = max(0, depth - 1)
+    return depth > 0
+
+
+def _last_item(lines: tuple[Line, ...]) -> tuple[Line, ...]:
+    """Return the lines from the last at the margin on that stands in no parentheses."""
+    depth = first = 0
+    margin = lines[0].prefix
+    for number, line in enumerate(lines):
+        if depth == 0 and line.prefix == margin:
+            first = number
+        depth += _balance(line)
+    return lines[first:]
+
+
+def _logical(lines: tuple[Line, ...]) -> int:
+    """Count lines; those that go on inside parentheses are one."""
+    count = depth = 0
+    for line in lines:
+        count += depth == 0
+        depth += _balance(line)
+    return count
+
+
+def _balance(line: Line) -> int:
+    kinds = [token.kind for token in line.tokens]
+    return kinds.count("_OPEN") + kinds.count("_CALL") - kinds.count("CLOSE")
+
+
+def _lacks_operands(text: str, knowledge: Knowledge) -> bool:
+    """Whether the last utterance's own head is what something is missing of."""
+    parsed = parse(Source("", text))
+    items = parsed.file.items
+    if parsed.diagnostics or not items or not isinstance(last := items[-1], Utterance):
+        return False
+    found: list[Diagnostic] = []
+    Resolving().resolver(knowledge.scope, None, found).resolve(last.expr)
+    return any(d.code in _MISSING and d.span and d.span.start == last.span.start for d in found)

@@ -1,0 +1,81 @@
+"""The names that mean something in a text: its rules, the body's parts, operators, constants."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from azee.lang.azop import shape_of
+from azee.lang.library import CORE, DEFAULT, names_in, shipped_library
+from azee.lang.registry import NATIVES
+from azee.lang.rule import Rule, is_azop
+from azee.lang.scope import AmbiguousRule, Namespace, Scope
+from azee.lang.values import Kind
+from azee_grammar.library import shipped_names
+from azee_grammar.syntax import Application, Expr, OperatorName, RuleForm, RuleName
+
+_DEEPEST = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Knowledge:
+    """What is in scope in a text, and which libraries it could use."""
+
+    scope: Scope
+    folders: Sequence[Path] = ()
+    """Where `use` looks beside the libraries that ship."""
+
+    @classmethod
+    def shipped(cls, folders: Sequence[Path] = ()) -> Knowledge:
+        """Return what a text knows that defines and uses nothing."""
+        libraries = [shipped_library(DEFAULT).namespace]
+        return cls(Scope(Namespace(None), shipped_library(CORE).namespace, libraries), folders)
+
+    def rule(self, name: str) -> Rule | None:
+        """Return the rule of a name; of several that the name might mean, the first."""
+        try:
+            return self.scope.find(name)
+        except AmbiguousRule as several:
+            return several.rules[0]
+
+    def rules(self) -> Iterator[Rule]:
+        """Yield every rule in scope."""
+        for name in self.scope.names():
+            if (rule := self.rule(name)) is not None:
+                yield rule
+
+    def libraries(self) -> tuple[str, ...]:
+        """Return the names that `use` finds."""
+        found = dict.fromkeys(shipped_names())
+        for folder in self.folders:
+            try:
+                found |= dict.fromkeys(names_in(folder))
+            except OSError:
+                continue  # the text that uses a library from there is told
+        return tuple(found)
+
+    def gives(self, rule: Rule) -> Kind | None:
+        """Return the kind of a rule's result where its body tells, without evaluating anything."""
+        body: Expr | None = rule.definition.body
+        for _ in range(_DEEPEST):
+            if not isinstance(body, Application):
+                return None
+            match body.head:
+                case OperatorName(name="azop") if is_azop(body):
+                    body = shape_of(body).body
+                case OperatorName(name="let") if len(body.operands) == 3:
+                    last = body.operands[2]
+                    body = last if isinstance(last, Application) else None
+                case OperatorName(name=name) if name in NATIVES:
+                    return NATIVES[name].result
+                case RuleName(form=RuleForm.REFER):
+                    return Kind.OPERATOR
+                case RuleName(form=RuleForm.POSTURE):
+                    return Kind.CONSTRAINTS
+                case RuleName(name=name) | OperatorName(name=name):
+                    inner = self.rule(name)
+                    body = inner.definition.body if inner is not None else None
+                case _:
+                    return None
+        return None

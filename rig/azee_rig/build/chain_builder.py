@@ -45,6 +45,12 @@ RHYTHM = {"abduction": 0.16, "flexion": 0.10}
 """Share of the arm's elevation that the clavicle takes. Of 180° of elevation the
 sternoclavicular joint takes about 30° (range-of-motion tables), less while flexing."""
 
+STRAIGHT_DEG, BACKWARD_DEG = 3.0, 15.0
+"""An elbow bent by less, or by less and to the wrong side, is taken for straight."""
+SAME_M, LOCKED = 1e-6, 1e-9
+RAISED_DEG = 75.0
+"""From here on abduction hardly tells flexion from rotation: clavicles go by elevation."""
+
 UP, FORWARD, LEFT = np.eye(3)[1], np.eye(3)[2], np.eye(3)[0]
 TRUNK = np.eye(3)
 """Frame of an upright trunk: x to the left, dir up, nrm forward."""
@@ -160,7 +166,7 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     clav, arm, f_arm, palm = (f"{b}_{side}" for b in ("clav", "arm", "f_arm", "palm"))
     shoulder, elbow, wrist = (anatomy.origin(b) for b in (arm, f_arm, palm))
     along_arm, along_f_arm = unit(elbow - shoulder), unit(wrist - elbow)
-    in_mesh = frame(along_arm, np.cross(np.cross(along_arm, along_f_arm), along_arm))
+    in_mesh = frame(along_arm, _crease(along_arm, along_f_arm))
     hanging = frame(-UP, FORWARD)
     a, b, c = _turn_angles(hanging.T @ in_mesh, X, NRM, DIR)
     made.bind |= {
@@ -171,7 +177,13 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     rhythm = [(NRM, sign * share, f"{arm}.{turn}") for turn, share in RHYTHM.items()]
     # In the frontal plane: nrm stays exactly forward, and the rhythm's turn back is exact too.
     along = (shoulder - anatomy.origin(clav)) * (1.0, 1.0, 0.0)
+    if np.linalg.norm(along) < SAME_M:  # a body without clavicles
+        along = sign * LEFT
     lifted = sum(scale * made.bind[coordinate] for _, scale, coordinate in rhythm)
+    if np.degrees(made.bind[f"{arm}.abduction"]) > RAISED_DEG:
+        raised = RHYTHM["abduction"] * np.arccos(np.clip(-along_arm[1], -1.0, 1.0))
+        made.bind[f"{clav}.elevation"] = float(raised - sign * lifted)
+        lifted = sign * raised
     clav_zero = frame(along, FORWARD) @ about_axis(NRM, -lifted)
     own = [(NRM, sign, f"{clav}.elevation"), (X, 1.0, f"{clav}.protraction")]
     made.node(
@@ -196,8 +208,10 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     palm_frame = _palm_frame(anatomy, side, sign)
     medial = np.stack([-sign * NRM_AXIS, DIR_AXIS, sign * X_AXIS], axis=1)
     in_mesh = frame(along_f_arm, palm_frame[:, NRM])
-    a, b, rest = _turn_angles((R @ medial).T @ in_mesh, NRM, DIR, X)
-    _expect_small(rest, f_arm)
+    # An arm that the mesh holds straight does not tell its plane of bending from its carrying
+    # angle: the hinge is tilted by what no flexion makes.
+    tilt, a, b = _turn_angles((R @ medial).T @ in_mesh, X, NRM, DIR)
+    medial = medial @ about_axis(X, tilt)
     made.bind |= {f"{f_arm}.flexion": sign * a, f"{f_arm}.pronation": sign * b}
     turns = [(NRM, sign, f"{f_arm}.flexion"), (DIR, sign, f"{f_arm}.pronation")]
     R = made.node(f_arm, arm, elbow, medial, turns)
@@ -219,6 +233,26 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
 X_AXIS, DIR_AXIS, NRM_AXIS = np.eye(3)
 
 
+def _crease(along_arm: Floats, along_f_arm: Floats) -> Floats:
+    """Direction from the upper arm to which its elbow bends; forward, where it is straight."""
+    ahead: Floats = FORWARD if abs(along_arm @ FORWARD) < 0.9 else UP
+    bend = np.cross(along_arm, along_f_arm)
+    angle = np.degrees(np.arctan2(np.linalg.norm(bend), along_arm @ along_f_arm))
+    crease = np.cross(bend, along_arm)
+    if angle < STRAIGHT_DEG or (angle < BACKWARD_DEG and crease @ ahead < 0.0):
+        return ahead
+    return np.asarray(crease)
+
+
+def _ways(ends: Sequence[Floats]) -> list[Floats]:
+    """Directions between places; where two are the same, joints that a body lacks, the next."""
+    ways = [b - a for a, b in pairwise(ends)]
+    for k in range(len(ways) - 2, -1, -1):
+        if np.linalg.norm(ways[k]) < SAME_M:
+            ways[k] = ways[k + 1]
+    return [unit(way) for way in ways]
+
+
 def _palm_frame(anatomy: Anatomy, side: str, sign: float) -> Floats:
     """Return columns x, dir, nrm: dir from the wrist to the middle knuckle, x to the ulnar side."""
     wrist = anatomy.origin(f"palm_{side}")
@@ -238,9 +272,10 @@ def _finger(made: _Builder, anatomy: Anatomy, finger: str, side: str, sign: floa
     palm = f"palm_{side}"
     ends = [*(anatomy.origin(n) for n in names), anatomy.tips[f"{finger}_{side}"]]
     R = made.frames[made.names.index(palm)]
+    ways = _ways(ends)
     above = palm
     for k, name in enumerate(names):
-        d = R.T @ unit(ends[k + 1] - ends[k])
+        d = R.T @ ways[k]
         turns: list[Turn] = [(X, 1.0, f"{name}.flexion")]
         if k == 0:
             spread = np.arctan2(-d[0], d[1])
@@ -263,9 +298,8 @@ def _thumb(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     names = [f"thumb_{side}_{k}" for k in PHALANGES]
     palm = f"palm_{side}"
     ends = [*(anatomy.origin(n) for n in names), anatomy.tips[f"thumb_{side}"]]
-    last = unit(ends[3] - ends[2])
-    across = unit(np.cross(last, -anatomy.thumb_nail[side]))
-    along = [unit(b - a) for a, b in pairwise(ends)]
+    along = _ways(ends)
+    across = unit(np.cross(along[2], -anatomy.thumb_nail[side]))
     first = along[0] - across * (across @ along[0])
     in_mesh = frame(first, np.cross(across, first))
     zero = np.stack([-sign * NRM_AXIS, DIR_AXIS, sign * X_AXIS], axis=1)
@@ -294,10 +328,14 @@ def _thumb(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
 def _turn_angles(R: Floats, first: int, second: int, third: int) -> tuple[float, float, float]:
     """Angles of R = rot(first, a) · rot(second, b) · rot(third, c) for three different axes.
 
-    Of the two solutions the one with |b| ≤ 90° is taken.
+    Of the two solutions the one with |b| ≤ 90° is taken; at 90°, where only a sum of a and c
+    counts, the one with a = 0.
     """
     handed = 1.0 if (second - first) % 3 == 1 else -1.0
-    b = np.arcsin(np.clip(handed * R[first, third], -1.0, 1.0))
+    free = np.hypot(R[second, third], R[third, third])
+    b = np.arctan2(handed * R[first, third], free)
+    if free < LOCKED:
+        return 0.0, float(b), float(np.arctan2(handed * R[second, first], R[second, second]))
     a = np.arctan2(-handed * R[second, third], R[third, third])
     c = np.arctan2(-handed * R[first, second], R[first, first])
     return float(a), float(b), float(c)

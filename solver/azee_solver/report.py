@@ -19,6 +19,7 @@ class ProblemReport:
     constraints: indices of its demands, as given. chain: AZee bones from the root to its end.
     merged_into: name of the problem that it was solved together with, the first of its group;
     none for that one and for a problem solved alone. moved: parts of the body that were free.
+    iterations: rounds of the two-level method; none where another solved it.
     """
 
     name: str
@@ -26,6 +27,7 @@ class ProblemReport:
     chain: tuple[str, ...]
     merged_into: str | None
     moved: tuple[str, ...]
+    iterations: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,202 @@
+"""The published way to solve a keyframe: two nested iterations, for comparison with `solve`.
+
+Nunnari, Filhol and Heloir (2018, listing 1) solve the ordered problems one by one. Within one they
+apply its constraints one at a time, each with an inverse-kinematics solver that knows nothing of
+the others, first the placement, then the rotations; then they measure all of them, and begin again
+as long as one is out of its threshold. Their inner solver is Blender's iTaSC; here it is the
+descent that `solve` makes too, on the one constraint, to the posture nearest to where it stood.
+
+Nothing keeps the body out of itself, nothing prefers one elbow to another, and a problem that has
+been solved is not looked at again: these are the method's faults, kept on purpose.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver import describe
+from azee_solver.anatomy import Part
+from azee_solver.attempt import Body, solve_group
+from azee_solver.constraint import Morph, Place, Transpath, Trill
+from azee_solver.demand import Demand
+from azee_solver.evaluate import Evaluator
+from azee_solver.options import SolveOptions
+from azee_solver.problems import Problem, ProblemBuilder, Reach
+from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
+from azee_solver.residuals import Tolerance
+
+if TYPE_CHECKING:
+    from azee_rig.rig import Rig
+    from azee_solver.geometry import Side
+
+Array = NDArray[np.float64]
+
+MAX_ITERATIONS = 35
+THRESHOLDS = Tolerance(length_m=0.01, angle_rad=math.radians(5.0))
+"""MAX_ITER, PLACE_THRSHLD and ROT_THRSH of the paper's §4.5."""
+
+STAY = 1e-3
+"""Per squared radian away from where a constraint found the body: chooses among the postures that
+meet it, and costs a thousandth of a threshold."""
+
+GIVEN_UP = "where the two-level iterations left it; they look for no reason"
+
+
+def solve_two_level(
+    rig: Rig,
+    demands: Sequence[Demand],
+    *,
+    dominant: Side,
+    start: Array,
+    reference: Array,
+    fixed: frozenset[int] = frozenset(),
+) -> SolveReport:
+    """Return the posture in which the two nested iterations end.
+
+    Arguments and report are those of `azee_solver.solve.solve`. A problem of the report tells how
+    many outer iterations it took, as the paper's figures 5 and 8 count them: one if its first
+    round met all. What counts as met are the paper's thresholds.
+
+    Args: fixed: coordinates that must not move from the start.
+    Raises: BindingError: the rig lacks a bone, site or morph.
+    """
+    began = time.perf_counter()
+    keyframe = _Keyframe(rig, demands, dominant, start, reference, fixed)
+    iterations = [keyframe.iterate(problem) for problem in keyframe.problems]
+    return keyframe.report(iterations, began)
+
+
+class _Keyframe:
+    """The problems of one moment, and the body as they leave it one after the other."""
+
+    def __init__(
+        self,
+        rig: Rig,
+        demands: Sequence[Demand],
+        dominant: Side,
+        start: Array,
+        reference: Array,
+        fixed: frozenset[int],
+    ) -> None:
+        self.rig, self.demands, self.fixed = rig, demands, fixed
+        limits = rig.coordinates
+        evaluator = Evaluator(rig, dominant)
+        self.constraints = [demand.constraint for demand in demands]
+        for constraint in self.constraints:
+            evaluator.binding.check(constraint)
+        self.presets = evaluator.binding.presets(self.constraints)
+        options = SolveOptions(
+            tolerance=THRESHOLDS, posture=STAY, comfort=0.0, overlap=0.0, overlap_m=math.inf
+        )
+        self.q = np.clip(reference, limits.lower, limits.upper)
+        self.body = Body(rig, evaluator, self.q, {}, options, self.constraints)
+        self.problems = ProblemBuilder(demands, evaluator.binding, self.body.anatomy).build()
+        self.chains = self._chains()
+        kept = sorted(fixed.union(*self.chains))
+        self.q[kept] = np.clip(start, limits.lower, limits.upper)[kept]
+        for v, angle in self.presets.items():
+            if v not in fixed:
+                self.q[v] = np.clip(angle, limits.lower[v], limits.upper[v])
+
+    def _chains(self) -> list[frozenset[int]]:
+        """Coordinates of each problem's chain; it starts where an earlier placement's ends."""
+        placed: frozenset[int] = frozenset()
+        chains = []
+        for problem in self.problems:
+            own = problem.steps[Reach.OWN] - self.fixed - frozenset(self.presets)
+            chains.append(own - placed or own)
+            if any(isinstance(self.constraints[i], Place) for i in problem.demands):
+                placed |= own
+        return chains
+
+    def iterate(self, problem: Problem) -> int:
+        """Solve one problem and return how many rounds that took (listing 1)."""
+        chain = self.chains[self.problems.index(problem)]
+        for iteration in range(1, MAX_ITERATIONS + 1):
+            for i in problem.demands:
+                self._apply(i, chain)
+            if all(self._offset(i) < 1.0 for i in problem.demands):
+                break
+        return iteration
+
+    def _apply(self, i: int, chain: frozenset[int]) -> None:
+        """Let one constraint have its way (`apply_to`)."""
+        if chain:
+            self.body.reference = self.q
+            alone = {i: self.demands[i]}
+            found = solve_group(
+                self.body, alone, self.q, chain, first=[self.q], only_first=True, thorough=False
+            )
+            self.q = np.array(found.q)
+
+    def _offset(self, i: int) -> float:
+        """How far a constraint is from its goal, in thresholds (`offset_to_goal`); NaN: nowhere."""
+        residual, _ = self._residual(i)
+        return residual / THRESHOLDS.of(self.constraints[i])
+
+    def _residual(self, i: int) -> tuple[float, str]:
+        demand = self.demands[i]
+        frames = self.body.frames(self.q)
+        residual, unit = self.body.evaluator.residual(
+            demand.constraint, frames, self.q, demand.phase, self.constraints
+        )
+        return float(residual), unit
+
+    def report(self, iterations: Sequence[int], began: float) -> SolveReport:
+        """Measure everything on the final posture."""
+        self.q.setflags(write=False)
+        return SolveReport(
+            self.q,
+            tuple(
+                self._problem_report(problem, chain, count)
+                for problem, chain, count in zip(
+                    self.problems, self.chains, iterations, strict=True
+                )
+            ),
+            tuple(self._constraint_reports()),
+            self.body.obstacles.overlaps(self.rig.chain.frames(self.q)),
+            self.body.evaluations,
+            time.perf_counter() - began,
+            frozenset(self.presets).union(*self.chains) - self.fixed,
+        )
+
+    def _problem_report(
+        self, problem: Problem, chain: frozenset[int], iterations: int
+    ) -> ProblemReport:
+        parts = {self.body.anatomy.parts[v] for v in chain}
+        moved = tuple(part.value for part in Part if part in parts)
+        report = ProblemReport(problem.name, problem.demands, problem.chain, None, moved)
+        return replace(report, iterations=iterations)
+
+    def _constraint_reports(self) -> list[ConstraintReport]:
+        binding = self.body.evaluator.binding
+        reports = []
+        for i, demand in enumerate(self.demands):
+            match demand.constraint:
+                case Transpath() | Trill():
+                    continue
+                case Morph() as morph if not binding.is_skeletal(morph):
+                    continue
+            residual, unit = self._residual(i)
+            tolerance = THRESHOLDS.of(demand.constraint)
+            met = residual <= tolerance
+            reports.append(
+                ConstraintReport(
+                    demand,
+                    describe.subject(demand.constraint, binding.dominant),
+                    describe.target(demand.constraint, binding.dominant),
+                    residual,
+                    "m" if unit == "m" else "rad",
+                    tolerance,
+                    met,
+                    None if met else GIVEN_UP,
+                )
+            )
+        return reports

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from azee_solver.geometry import Side
 
 Hand = Literal["right", "left"]
+Method = Literal["grouped", "two-level"]
 
 TEXT_SUFFIXES = (".azee", ".az")
 
@@ -80,6 +81,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     mode: Mode = "flat",
     seed: int = 0,
     life: bool = True,
+    solver: Method = "grouped",
 ) -> Compilation:
     """Compile AZee to a signing body.
 
@@ -88,7 +90,8 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         compile instead of the text's own utterances. utterance: number from 1 of the only one to
         compile; all play one after the other by default. libraries: folders that `use` looks in.
         dominant: the signer's strong hand. fps: frames per second. seed, life: of breathing and
-        blinking, and whether there is any.
+        blinking, and whether there is any. solver: how postures are found; two-level is the method
+        of Nunnari et al. 2018, for comparison.
     Raises: AZeeError: the text is at fault, as its diagnostics tell.
         RigError: there is no such rig.
     """
@@ -98,7 +101,14 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     program = load(_source(text_or_path), [Path(folder) for folder in libraries])
     score = score_of(program, expression, utterance, dominant)
     return perform(
-        score, load_rig(rig), dominant=dominant, fps=fps, mode=mode, seed=seed, life=life
+        score,
+        load_rig(rig),
+        dominant=dominant,
+        fps=fps,
+        mode=mode,
+        seed=seed,
+        life=life,
+        solver=solver,
     )
 
 
@@ -123,6 +133,7 @@ def perform(
     mode: Mode = "flat",
     seed: int = 0,
     life: bool = True,
+    solver: Method = "grouped",
 ) -> Compilation:
     """Make a body play a score.
 
@@ -132,8 +143,14 @@ def perform(
 
     if missing := lacks(score, rig, dominant):
         raise AZeeError(*missing)
+    side = _side(dominant)
+    postures = None
+    if solver == "two-level":
+        from azee.motion.two_level import two_level_solver
+
+        postures = two_level_solver(rig, side)
     animation = animate(
-        score, rig, fps=fps, dominant=_side(dominant), mode=mode, seed=seed, life=life
+        score, rig, fps=fps, dominant=side, mode=mode, seed=seed, life=life, solver=postures
     )
     return Compilation(score, rig, animation)
 

@@ -19,7 +19,7 @@ from azee.formats import SUFFIXES
 from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
-    from azee.compilation import Hand
+    from azee.compilation import Hand, Method
     from azee.motion.animate import Mode
 
 
@@ -61,6 +61,13 @@ def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
     show_default=True,
     help="How blocks become movement; flat: on one time line, as in the 2018 paper.",
 )
+@click.option(
+    "--solver",
+    type=click.Choice(["grouped", "two-level"]),
+    default="grouped",
+    show_default=True,
+    help="How postures are found; two-level: the iterations of the 2018 paper, for comparison.",
+)
 @click.option("--no-life", is_flag=True, help="No breathing and no blinking.")
 @click.option(
     "--report",
@@ -88,6 +95,7 @@ def compile_(
     fps: float,
     dominant: Hand,
     mode: Mode,
+    solver: Method,
     no_life: bool,
     report: Path | None,
     strict: bool,
@@ -107,7 +115,15 @@ def compile_(
         score = text.score(dominant)
         with working("Solving …", quiet=quiet or form == "json") as progress:
             _prepare(progress)
-            made = perform(score, body, dominant=dominant, fps=fps, mode=mode, life=not no_life)
+            made = perform(
+                score,
+                body,
+                dominant=dominant,
+                fps=fps,
+                mode=mode,
+                life=not no_life,
+                solver=solver,
+            )
             for path in outputs:
                 progress.now(f"Writing {path} …")
                 made.save(path)

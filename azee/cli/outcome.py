@@ -18,12 +18,25 @@ def outcome(made: Compilation, written: Sequence[Path]) -> str:
     length = f"{report.duration_s:.2f} s at {report.fps:g} frames a second"
     lines = [
         f"{length}, {len(report.postures)} key postures, {len(report.constraints)} constraints",
+        *_iterations(made),
         *_misses([result for result in report.constraints if not result.met]),
         *(f"wrote {path} ({_size(path)})" for path in written),
     ]
     if not written:
         lines.append("nothing written: name files with -o")
     return "\n".join(lines)
+
+
+def _iterations(made: Compilation) -> list[str]:
+    """Say what the two-level method took, counted as the paper does."""
+    postures = (posture for posture in made.report.postures if not posture.reused)
+    counts = [p.iterations for posture in postures for p in posture.report.problems]
+    took = [count for count in counts if count is not None]
+    if not took:
+        return []
+    more = sum(count > 1 for count in took)
+    hard = f"{more} took more than one, the hardest {max(took)}"
+    return [f"{len(took)} IK problems in {sum(took)} iterations; {hard}"]
 
 
 def _misses(missed: Sequence[ConstraintResult]) -> list[str]:

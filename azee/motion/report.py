@@ -241,6 +241,7 @@ def _problems(posture: KeyPosture) -> Sequence[dict[str, object]]:
             "chain": [*p.chain],
             "merged_into": p.merged_into,
             "moved": [*p.moved],
+            **({} if p.iterations is None else {"iterations": p.iterations}),
         }
         for p in posture.report.problems
     ]

@@ -92,6 +92,17 @@ def test_the_other_hand_signs_for_a_left_handed_signer() -> None:
         assert ranges[names[f"f_arm_{still}.flexion"]] < 1e-6
 
 
+def test_the_published_method_counts_its_iterations(capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["-o", "touch.json", "--report", "r.json", "--solver", "two-level"]
+    assert run(["compile", "touch.azee", *arguments]) == 0
+    report = _clip("r.json")
+    jsonschema.validate(report, schema("report"))
+    counts = [problem["iterations"] for problem in report["problems"]]
+    assert f"{len(counts)} IK problems in {sum(counts)} iterations" in capsys.readouterr().err
+    made = azee.compile(Path("touch.azee"), solver="two-level")
+    assert made.report.as_json()["problems"] == report["problems"]
+
+
 def test_frames_come_as_often_as_asked() -> None:
     for fps in (12, 60):
         assert run(["compile", "two.azee", "-o", "a.json", "--fps", str(fps), "--quiet"]) == 0

@@ -1,0 +1,206 @@
+"""Methods in this process: ours in its degrees, the published one, scipy's, and the yardstick."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from azee_rig.rig import Rig
+from azee_solver.anatomy import anatomy
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import Side
+from azee_solver.nlopt_backend import minimise
+from azee_solver.options import SolveOptions
+from azee_solver.program import Collisions, Cost, Program
+from azee_solver.report import SolveReport
+from azee_solver.residuals import lower
+from azee_solver.solve import solve
+from azee_solver.starts import starts
+from azee_solver.tape import Tape
+from azee_solver.two_level import solve_two_level
+from benchmarks.ik.levenberg import NOTHING, Flat
+from benchmarks.ik.problems import TIGHT, Problem
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Answer:
+    """A posture (V,) and what it cost. rounds: of the two-level method, per IK problem."""
+
+    q: Array
+    seconds: float
+    evaluations: int
+    rounds: tuple[int, ...] = ()
+
+
+Method = Callable[[Rig, Problem], Answer]
+
+FULL = SolveOptions(explain=False)
+APART = replace(FULL, overlap=0.0, overlap_m=math.inf)
+BARE = replace(APART, posture=0.0, comfort=0.0)
+STARTS = 10
+"""Idle and so many less one at random, for the methods that are nothing but a descent."""
+
+
+def ours(options: SolveOptions) -> Method:
+    """`solve`: problems built, grouped, solved, widened, settled and measured again."""
+
+    def method(rig: Rig, problem: Problem) -> Answer:
+        idle = rig.coordinates.idle
+        began = time.perf_counter()
+        report = solve(
+            rig,
+            problem.demands,
+            dominant=Side.RIGHT,
+            start=idle,
+            reference=idle,
+            options=options,
+        )
+        return _answer(report, began)
+
+    return method
+
+
+def two_level(rig: Rig, problem: Problem) -> Answer:
+    """Listing 1 of the 2018 paper."""
+    idle = rig.coordinates.idle
+    began = time.perf_counter()
+    report = solve_two_level(rig, problem.demands, dominant=Side.RIGHT, start=idle, reference=idle)
+    rounds = tuple(p.iterations for p in report.problems if p.iterations is not None)
+    return replace(_answer(report, began), rounds=rounds)
+
+
+def _answer(report: SolveReport, began: float) -> Answer:
+    return Answer(report.coordinates, time.perf_counter() - began, report.evaluations)
+
+
+def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
+    """Our descents alone, ease and comfort on: the clock starts when the problem is laid out."""
+    idle = np.array(rig.coordinates.idle)
+    evaluator = Evaluator(rig, Side.RIGHT)
+    moving = anatomy(rig.chain, rig.coordinates).moved_by(problem.free)
+    tape = Tape(evaluator, rig.chain.frames(idle), moving)
+    asked = dict(enumerate(problem.demands))
+    residuals = lower(tape, asked, FULL.tolerance, {})
+    cost = Cost(
+        idle,
+        FULL.posture * rig.coordinates.stiffness**2,
+        np.full(len(idle), FULL.comfort),
+        0.0,
+    )
+    free = sorted(problem.free)
+    program = Program(rig, idle, free, tape, residuals.rows, Collisions.none(), cost)
+    known = list(starts(rig.coordinates, program.free, idle, 6))
+    best, worst = idle[free], math.inf
+    began = time.perf_counter()
+    for start in known:
+        found = minimise(
+            program,
+            start,
+            program.lower,
+            program.upper,
+            max_evaluations=FULL.max_evaluations,
+            tolerance=FULL.descent_tolerance,
+        )
+        program(found.x, np.empty(0))
+        ratio = max(residuals.ratios(program.gaps(), asked, FULL.tolerance).values())
+        if ratio < worst:
+            best, worst = found.x, ratio
+        if worst <= 1.0:
+            break
+    seconds = time.perf_counter() - began
+    q = idle
+    q[free] = best
+    return Answer(q, seconds, program.evaluations)
+
+
+def yardstick(*, ease: bool) -> Method:
+    """See `levenberg`; the clock starts when the problem is laid out.
+
+    Args: ease: whether it is to come near idle, by the same weights as ours.
+    """
+
+    def method(rig: Rig, problem: Problem) -> Answer:
+        flat = Flat(rig, problem.constraints, problem.free, TIGHT)
+        stiffness = rig.coordinates.stiffness[flat.free]
+        keep = math.sqrt(FULL.posture) * stiffness if ease else NOTHING
+        known = list(_random_starts(rig, flat))
+        best, worst, evaluations = known[0], math.inf, 0
+        began = time.perf_counter()
+        for start in known:
+            q, count = flat.descend(start, keep)
+            evaluations += count
+            far = flat.worst(q)
+            if far < worst:
+                best, worst = q, far
+            if worst <= 1.0:
+                break
+        return Answer(best, time.perf_counter() - began, evaluations)
+
+    return method
+
+
+def scipy_trf(rig: Rig, problem: Problem) -> Answer:
+    """`scipy.optimize.least_squares`, trust region reflective, with the yardstick's Jacobian."""
+    flat = Flat(rig, problem.constraints, problem.free, TIGHT)
+    known = list(_random_starts(rig, flat))
+    best, worst, evaluations = known[0], math.inf, 0
+    began = time.perf_counter()
+    for start in known:
+        q = start.copy()
+
+        def posture(x: Array, q: Array = q) -> Array:
+            q[flat.free] = x
+            return q
+
+        found = least_squares(
+            lambda x: flat.residuals(posture(x))[0],
+            start[flat.free],
+            lambda x: flat.residuals(posture(x))[1],
+            bounds=(flat.lower, flat.upper),
+            method="trf",
+            ftol=1e-8,
+            xtol=1e-8,
+            max_nfev=100,
+        )
+        evaluations += int(found.nfev)
+        far = flat.worst(posture(found.x))
+        if far < worst:
+            best, worst = posture(found.x).copy(), far
+        if worst <= 1.0:
+            break
+    return Answer(best, time.perf_counter() - began, evaluations)
+
+
+def _random_starts(rig: Rig, flat: Flat) -> Iterator[Array]:
+    """Idle, pushed off its limits, then postures at random: the same for every problem."""
+    rng = np.random.default_rng(0)
+    room = 1e-3 * (flat.upper - flat.lower)
+    first = np.array(rig.coordinates.idle)
+    first[flat.free] = np.clip(first[flat.free], flat.lower + room, flat.upper - room)
+    yield first
+    for _ in range(STARTS - 1):
+        q = first.copy()
+        q[flat.free] = flat.lower + rng.uniform(0.15, 0.85, len(flat.free)) * (
+            flat.upper - flat.lower
+        )
+        yield q
+
+
+METHODS: dict[str, Method] = {
+    "ours, everything on": ours(FULL),
+    "ours, no collision": ours(APART),
+    "ours, bare": ours(BARE),
+    "ours, descents alone": ours_laid_out,
+    "two-level": two_level,
+    "scipy trf": scipy_trf,
+    "LM kernel with ease": yardstick(ease=True),
+    "LM kernel": yardstick(ease=False),
+}

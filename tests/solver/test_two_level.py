@@ -1,4 +1,4 @@
-"""The published two-level iterations: the loop of listing 1, and its faults as the paper has them."""
+"""The published two-level iterations: the loop of listing 1, its chains, and how it ends."""
 
 from __future__ import annotations
 

@@ -17,6 +17,7 @@ from azee.cli.compile import compile_
 from azee.cli.console import DONE, FAULT, INTERRUPTED, show
 from azee.cli.find import find
 from azee.cli.fmt import fmt
+from azee.cli.lsp import lsp
 from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
@@ -34,6 +35,7 @@ azee.add_command(check)
 azee.add_command(fmt)
 azee.add_command(score)
 azee.add_command(find)
+azee.add_command(lsp)
 azee.add_command(rules)
 azee.add_command(rig)
 

@@ -30,7 +30,7 @@ from azee_grammar.diagnostic import AZeeError, Diagnostic, Severity
 from azee_grammar.files import read_source
 from azee_grammar.parser import parse, parse_expression
 from azee_grammar.source import Source, Span
-from azee_grammar.syntax import Application, Expr, File, RuleName, Utterance
+from azee_grammar.syntax import Application, Expr, File, Item, RuleName, Utterance
 from azee_solver.constraint import Origin
 from azee_solver.geometry import Side
 
@@ -84,16 +84,17 @@ class Program:
         return scores[0] if len(scores) == 1 else in_sequence(scores, BETWEEN_UTTERANCES_S)
 
     def check(
-        self, dominant: Side = Side.RIGHT, *, sound: Container[Utterance] = ()
+        self, dominant: Side = Side.RIGHT, *, sound: Container[Item] = ()
     ) -> tuple[Diagnostic, ...]:
         """Return all that is wrong with the text, its rules that nobody calls included.
 
         Args: dominant: the hand for which orientations that exclude each other are looked for.
-            sound: utterances that are known to be right and are passed over: they were, and
-            neither the rules of the text nor its libraries have changed since.
+            sound: definitions and utterances that are known to be right and are passed over:
+            they were, and no rule that they reach has changed since.
         """
         for rule in self._own_rules():
-            _ = rule.procedure
+            if rule.definition not in sound:
+                _ = rule.procedure
         items = [item for item in self._items() if item not in sound]
         found = [d for item in items for d in self.problems(item, dominant)]
         return _tidy((*self.found, *found, *self._rule_diagnostics()), self.source)

@@ -1,0 +1,162 @@
+"""What is known of one version of a text: its tree, its scope, its names, what is wrong with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from azee.assist.knowledge import Knowledge
+from azee.lang.program import Program, load
+from azee.lsp.document import Document
+from azee.lsp.occurrences import Occurrence, occurrences
+from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.source import Source
+from azee_grammar.syntax import (
+    Application,
+    Definition,
+    Expr,
+    Item,
+    Named,
+    OperatorName,
+    RuleName,
+    Use,
+    Utterance,
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sound:
+    """Items that were found right, with all that this depended on."""
+
+    rules: Mapping[str, tuple[Definition, ...]] = field(default_factory=dict)
+    uses: tuple[Use, ...] = ()
+    read: tuple[Source, ...] = ()
+    items: frozenset[Item] = frozenset()
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """A text, read; what is wrong with it is found out when it is asked for.
+
+    `read` are the texts of libraries that it depends on.
+    """
+
+    document: Document
+    program: Program
+    read: tuple[Source, ...]
+    folders: Sequence[Path]
+
+    @cached_property
+    def knowledge(self) -> Knowledge:
+        """What is in scope."""
+        path = self.document.path
+        beside = () if path is None else (path.parent,)
+        return Knowledge(self.program.scope, (*beside, *self.folders))
+
+    @cached_property
+    def occurrences(self) -> Sequence[Occurrence]:
+        """All names of the text, in order."""
+        return occurrences(self.program.file, self.program.scope)
+
+    def at(self, offset: int) -> Occurrence | None:
+        """Return the name at an offset, its sigil and its end included."""
+        for found in self.occurrences:
+            if found.span.start - len(found.sigil) <= offset <= found.span.end:
+                return found
+        return None
+
+    def check(self, before: Sound) -> tuple[tuple[Diagnostic, ...], Sound]:
+        """Return all that is wrong, and what to hand over when the next version is checked.
+
+        What was right stays right while it reaches no rule that has changed: only the rest is
+        resolved and evaluated again, which is what costs time.
+        """
+        known = self._still_sound(before)
+        diagnostics = self.program.check(sound=known)
+        spoiled = {d.span.source.name for d in diagnostics if d.span}
+        rules = {rule.definition: rule for rule in self.program.scope.own.rules.values()}
+        sound = {
+            item
+            for item in self.program.file.items
+            if item in known
+            or (isinstance(item, Utterance) and not self.program.problems(item))
+            or (item in rules and not rules[item].diagnostics)
+        }
+        if len(spoiled) > 1:  # a mistake in a library may show anywhere
+            sound.clear()
+        return diagnostics, Sound(self._rules, self._uses, self.read, frozenset(sound))
+
+    @property
+    def _uses(self) -> tuple[Use, ...]:
+        return tuple(item for item in self.program.file.items if isinstance(item, Use))
+
+    @cached_property
+    def _rules(self) -> Mapping[str, tuple[Definition, ...]]:
+        """Definitions by name; of two of one name, the second is a mistake."""
+        found: dict[str, tuple[Definition, ...]] = {}
+        for item in self.program.file.items:
+            if isinstance(item, Definition):
+                found[item.name] = (*found.get(item.name, ()), item)
+        return found
+
+    def _still_sound(self, before: Sound) -> frozenset[Item]:
+        if (before.uses, before.read) != (self._uses, self.read):
+            return frozenset()
+        names = {*self._rules, *before.rules}
+        changed = {name for name in names if self._rules.get(name) != before.rules.get(name)}
+        if not changed:
+            return before.items
+        return frozenset(item for item in before.items if changed.isdisjoint(self._reached(item)))
+
+    def _reached(self, item: Item) -> set[str]:
+        """Return the names of all rules that an item mentions, and that those mention in turn."""
+        waiting = [self._mentions(item)]
+        reached: set[str] = set()
+        while waiting:
+            new = waiting.pop() - reached
+            reached |= new
+            waiting += (self._mentions(rule) for name in new for rule in self._rules.get(name, ()))
+        return reached
+
+    def _mentions(self, item: Item) -> frozenset[str]:
+        if id(item) not in self._mentioned:
+            self._mentioned[id(item)] = item, frozenset(_names(item))
+        return self._mentioned[id(item)][1]
+
+    @cached_property
+    def _mentioned(self) -> dict[int, tuple[Item, frozenset[str]]]:
+        return {}
+
+
+def _names(item: Item) -> Iterator[str]:
+    """Yield the names in an item that may be those of rules; a definition's own is one."""
+    waiting: list[Expr | Named] = []
+    if isinstance(item, Definition):
+        yield item.name
+        waiting += [] if item.body is None else [item.body]
+    elif isinstance(item, Utterance):
+        waiting.append(item.expr)
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, Named):
+            waiting.append(node.value)
+        elif isinstance(node, Application):
+            if isinstance(node.head, RuleName | OperatorName):
+                yield node.head.name
+            waiting += node.operands
+
+
+def analyse(
+    document: Document, folders: Sequence[Path], read: Callable[[Path], Source]
+) -> Analysis:
+    """Read a text and the libraries it uses. `read` reads their texts."""
+    texts: dict[Path, Source] = {}
+
+    def noted(path: Path) -> Source:
+        texts[path] = read(path)
+        return texts[path]
+
+    program = load(document.source, folders, read=noted)
+    return Analysis(document, program, tuple(texts.values()), tuple(folders))

@@ -1,0 +1,212 @@
+"""The language server, asked over the protocol by a client that is not ours."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+
+import pytest
+from editor import Editor, editor
+from lsprotocol import types
+from pygls.exceptions import JsonRpcException
+
+SIGNS = """\
+def été
+    'meaning "summer"
+    azop
+        'où
+        ^Rssp
+        sync
+            'SIG :chat
+            'GAZE key(.2, lookat(^où))
+            'start 'SIG:start
+def 😀
+    :été('où = ^Lssp)
+:été
+"""
+MAIN = "use 'signs\n:info-about\n    'topic :été\n    'info :😀\n"
+
+
+def play(folder: Path, scene: Callable[[Editor], Awaitable[None]]) -> None:
+    """Let somebody do something in an editor."""
+
+    async def whole() -> None:
+        async with editor(folder) as one:
+            await scene(one)
+
+    asyncio.run(whole())
+
+
+def lines(text: str) -> list[str]:
+    return text.replace("\r\n", "\n").split("\n")
+
+
+def test_edits_break_a_text_and_mend_it(tmp_path: Path) -> None:
+    async def scene(one: Editor) -> None:
+        assert await one.open("a.azee", "# 😀\n:chat\n:personne\n") == []
+        assert await one.replace("a.azee", ":chat", "😀😀 :caht") == [
+            "unknown-operator",
+            "unknown-rule",
+        ]
+        assert one.messages[one.uri("a.azee")].diagnostics[1].range == one.range("a.azee", ":caht")
+        assert await one.replace("a.azee", "😀😀 :caht", ":caht") == ["unknown-rule"]
+        message = one.messages[one.uri("a.azee")].diagnostics[0]
+        assert message.range == one.range("a.azee", ":caht")
+        assert "did you mean `:cat` or `:chat`?" in message.message
+        assert await one.replace("a.azee", ":caht", "(") == ["unclosed-paren"]
+        assert await one.replace("a.azee", "(", ":chat") == []
+
+    play(tmp_path, scene)
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_accents_and_line_ends(tmp_path: Path, end: str) -> None:
+    text = SIGNS.replace("\n", end)
+
+    async def scene(one: Editor) -> None:
+        assert await one.open("signs.azee", text) == []
+        one.texts["signs.azee"] = SIGNS  # line ends count for no position
+        client, item = one.client, one.item("signs.azee")
+        use = one.at("signs.azee", ":été(", 2)
+        hover = await client.text_document_hover_async(types.HoverParams(item, use))
+        assert hover is not None
+        assert isinstance(hover.contents, types.MarkupContent)
+        assert "summer" in hover.contents.value
+        place = await client.text_document_definition_async(types.DefinitionParams(item, use))
+        assert isinstance(place, types.Location)
+        assert place.range == one.range("signs.azee", "été")
+        edits = await client.text_document_formatting_async(
+            types.DocumentFormattingParams(item, types.FormattingOptions(4, True))
+        )
+        assert edits is not None
+        if end == "\r\n":
+            assert "\n" not in edits[0].new_text.replace("\r\n", "")
+        assert "'où = ^Lssp" in edits[0].new_text
+
+    play(tmp_path, scene)
+
+
+def test_two_open_texts_of_which_one_defines_the_others_rule(tmp_path: Path) -> None:
+    for name, text in (("signs.azee", "def old\n    :chat\n"), ("main.azee", MAIN)):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+
+    async def scene(one: Editor) -> None:
+        client = one.client
+        assert await one.open("main.azee", MAIN) == ["unknown-rule", "unknown-rule"]
+        await one.open("signs.azee", SIGNS)  # not saved: the editor's version counts
+        await one.wait_for_codes("main.azee", [])
+        await one.replace("signs.azee", "def été", "def automne")
+        await one.wait_for_codes("main.azee", ["unknown-rule"])
+        await one.replace("signs.azee", "def automne", "def été")
+        await one.wait_for_codes("main.azee", [])
+
+        use = one.at("main.azee", ":été", 1)
+        item = one.item("main.azee")
+        place = await client.text_document_definition_async(types.DefinitionParams(item, use))
+        assert isinstance(place, types.Location)
+        assert (place.uri, place.range) == (
+            one.uri("signs.azee"),
+            one.range("signs.azee", "été"),
+        )
+        found = await client.text_document_references_async(
+            types.ReferenceParams(types.ReferenceContext(True), item, use)
+        )
+        assert found is not None
+        assert sorted((p.uri[-10:], p.range.start.line) for p in found) == [
+            ("/main.azee", 2),
+            ("igns.azee", 0),
+            ("igns.azee", 10),
+            ("igns.azee", 11),
+        ]
+        edit = await client.text_document_rename_async(types.RenameParams(item, use, "l'été"))
+        assert edit is not None
+        assert edit.changes is not None
+        counts = {uri: len(edits) for uri, edits in edit.changes.items()}
+        assert counts == {one.uri("main.azee"): 1, one.uri("signs.azee"): 3}
+        assert {e.new_text for edits in edit.changes.values() for e in edits} == {"l'été"}
+
+    play(tmp_path, scene)
+
+
+def test_arguments_and_blocks_are_renamed_with_all_their_uses(tmp_path: Path) -> None:
+    async def scene(one: Editor) -> None:
+        client, item = one.client, one.item("signs.azee")
+        await one.open("signs.azee", SIGNS)
+
+        async def edits(word: str, skip: int, name: str) -> list[tuple[int, str]]:
+            where = one.at("signs.azee", word, skip)
+            params = types.RenameParams(item, where, name)
+            edit = await client.text_document_rename_async(params)
+            assert edit is not None
+            assert edit.changes is not None
+            return sorted((e.range.start.line, e.new_text) for e in edit.changes[item.uri])
+
+        assert await edits("^où", 1, "place") == [(3, "place"), (7, "place"), (10, "place")]
+        assert await edits("'SIG:start", 1, "SIGN") == [(6, "SIGN"), (8, "SIGN")]
+        with pytest.raises(JsonRpcException, match="cannot be the name"):
+            await edits("'SIG:start", 1, "a b")
+        with pytest.raises(JsonRpcException, match="already"):
+            await edits("def été", 4, "😀")
+        with pytest.raises(JsonRpcException, match="ships with azee"):
+            await edits(":chat", 1, "dog")
+
+    play(tmp_path, scene)
+
+
+def test_what_is_offered_and_told_while_typing(tmp_path: Path) -> None:
+    async def scene(one: Editor) -> None:
+        client, item = one.client, one.item("a.azee")
+        await one.open("a.azee", "# 😀😀\n:info-about\n    'topic :pers\n    'i\nplace(@I_, )\n")
+
+        async def offered(word: str, skip: int) -> list[str]:
+            where = one.at("a.azee", word, skip)
+            params = types.CompletionParams(item, where)
+            found = await client.text_document_completion_async(params)
+            assert isinstance(found, types.CompletionList)
+            return [entry.label for entry in found.items]
+
+        assert (await offered(":pers", 5))[0] == ":personne"
+        assert (await offered("'i", 2))[0] == "'info"
+        assert "@I_TIP" in await offered("@I_", 3)
+        where = one.at("a.azee", "@I_", 3)
+        signature = await client.text_document_signature_help_async(
+            types.SignatureHelpParams(item, where)
+        )
+        assert signature is not None
+        assert signature.signatures[0].label.startswith("place ")
+        assert signature.active_parameter == 0
+
+    play(tmp_path, scene)
+
+
+def test_outline_symbols_and_colours(tmp_path: Path) -> None:
+    async def scene(one: Editor) -> None:
+        client, item = one.client, one.item("signs.azee")
+        await one.open("signs.azee", SIGNS)
+        outline = await client.text_document_document_symbol_async(
+            types.DocumentSymbolParams(item)
+        )
+        assert outline is not None
+        assert [symbol.name for symbol in outline] == ["été", "😀", ":été"]
+        first = outline[0]
+        assert isinstance(first, types.DocumentSymbol)
+        assert [block.name for block in first.children or ()] == ["SIG", "GAZE"]
+        found = await client.workspace_symbol_async(types.WorkspaceSymbolParams("ete"))
+        assert found is not None
+        assert [symbol.name for symbol in found] == ["été"]
+        colours = await client.text_document_semantic_tokens_full_async(
+            types.SemanticTokensParams(item)
+        )
+        assert colours is not None
+        spans = []
+        line = start = 0
+        for i in range(0, len(colours.data), 5):
+            down, right, length = colours.data[i : i + 3]
+            line, start = line + down, right if down else start + right
+            units = lines(SIGNS)[line].encode("utf-16-le")
+            spans.append(units[2 * start : 2 * (start + length)].decode("utf-16-le"))
+        assert spans[:4] == ["def", "été", "'meaning", '"summer"']
+        assert spans[-6:] == ["def", "😀", ":été", "'où", "^Lssp", ":été"]
+
+    play(tmp_path, scene)

@@ -35,6 +35,7 @@ format: $(READY) ## put every file into the one format
 bench: $(READY) ## how long things take
 	@$(RUN) benchmarks/run.py
 	@$(RUN) benchmarks/language_growth.py
+	@$(RUN) benchmarks/editor.py
 
 SECONDS ?= 60
 fuzz: $(READY) ## look for texts that break the language, for SECONDS=60; on Linux

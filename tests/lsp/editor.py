@@ -40,11 +40,8 @@ class Editor:
     def at(self, name: str, word: str, skip: int = 0) -> types.Position:
         """Position where a word begins, `skip` code units further."""
         text = self.texts[name].replace("\r\n", "\n")
-        line, column = next(
-            (n, line.index(word)) for n, line in enumerate(text.split("\n")) if word in line
-        )
-        before = text.split("\n")[line][:column]
-        return types.Position(line, len(before.encode("utf-16-le")) // 2 + skip)
+        found = _position(text, text.index(word))
+        return types.Position(found.line, found.character + skip)
 
     def range(self, name: str, word: str) -> types.Range:
         start = self.at(name, word)
@@ -60,8 +57,10 @@ class Editor:
         return await self.codes(name)
 
     async def replace(self, name: str, old: str, new: str) -> Sequence[str]:
-        """Type over a word, as one change of a range; returns the codes that then hold."""
-        place = self.range(name, old)
+        """Type over words, as one change of a range; returns the codes that then hold."""
+        text = self.texts[name].replace("\r\n", "\n")
+        start, end = (_position(text, text.index(old) + n) for n in (0, len(old)))
+        place = types.Range(start, end)
         self.texts[name] = self.texts[name].replace(old, new, 1)
         self._versions[name] += 1
         item = types.VersionedTextDocumentIdentifier(self._versions[name], self.uri(name))
@@ -91,6 +90,13 @@ class Editor:
 
         async with self._told:
             await asyncio.wait_for(self._told.wait_for(are_there), SOON_S)
+
+
+def _position(text: str, offset: int) -> types.Position:
+    """Count as the protocol says, independently of the server."""
+    before = text[:offset]
+    column = before[before.rfind("\n") + 1 :]
+    return types.Position(before.count("\n"), len(column.encode("utf-16-le")) // 2)
 
 
 @asynccontextmanager

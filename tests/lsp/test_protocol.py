@@ -96,9 +96,9 @@ def test_two_open_texts_of_which_one_defines_the_others_rule(tmp_path: Path) -> 
         assert await one.open("main.azee", MAIN) == ["unknown-rule", "unknown-rule"]
         await one.open("signs.azee", SIGNS)  # not saved: the editor's version counts
         await one.wait_for_codes("main.azee", [])
-        await one.replace("signs.azee", "def été", "def automne")
+        await one.replace("signs.azee", "def 😀", "def 😎")
         await one.wait_for_codes("main.azee", ["unknown-rule"])
-        await one.replace("signs.azee", "def automne", "def été")
+        await one.replace("signs.azee", "def 😎", "def 😀")
         await one.wait_for_codes("main.azee", [])
 
         use = one.at("main.azee", ":été", 1)
@@ -113,11 +113,11 @@ def test_two_open_texts_of_which_one_defines_the_others_rule(tmp_path: Path) -> 
             types.ReferenceParams(types.ReferenceContext(True), item, use)
         )
         assert found is not None
-        assert sorted((p.uri[-10:], p.range.start.line) for p in found) == [
-            ("/main.azee", 2),
-            ("igns.azee", 0),
-            ("igns.azee", 10),
-            ("igns.azee", 11),
+        assert sorted((Path(p.uri).name, p.range.start.line) for p in found) == [
+            ("main.azee", 2),
+            ("signs.azee", 0),
+            ("signs.azee", 10),
+            ("signs.azee", 11),
         ]
         edit = await client.text_document_rename_async(types.RenameParams(item, use, "l'été"))
         assert edit is not None
@@ -184,9 +184,7 @@ def test_outline_symbols_and_colours(tmp_path: Path) -> None:
     async def scene(one: Editor) -> None:
         client, item = one.client, one.item("signs.azee")
         await one.open("signs.azee", SIGNS)
-        outline = await client.text_document_document_symbol_async(
-            types.DocumentSymbolParams(item)
-        )
+        outline = await client.text_document_document_symbol_async(types.DocumentSymbolParams(item))
         assert outline is not None
         assert [symbol.name for symbol in outline] == ["été", "😀", ":été"]
         first = outline[0]

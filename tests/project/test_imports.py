@@ -35,6 +35,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.motion": {"azee.score", "azee_solver", "azee_rig", "numpy"},
     "azee.export": {"azee.score", "azee.motion", "azee_rig", "numpy", "PIL", "numba", "av"}
     | DECLARATIONS,
+    "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},
     "azee.cli": {*OURS, "click", "rich"},
     "azee": OURS,
 }

@@ -13,26 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from azee_rig.mesh import BodyMesh, vertex_normals
+from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Rig
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-SUN = np.array([0.28, 0.72, 0.95]) / np.linalg.norm([0.28, 0.72, 0.95])
-LIGHTS = np.array(
-    [
-        [1.75, 1.68, 1.58],  # key
-        [0.62, 0.66, 0.74],  # sky
-        [0.30, 0.27, 0.25],  # ground
-        [0.35, 0.38, 0.42],  # rim
-    ]
-)
-BACKGROUND = (0.72, 0.76, 0.80), (0.90, 0.92, 0.94)
-"""sRGB at the top and at the bottom of a picture."""
-SHADOW_SAMPLES = 1024
-SHADOW_MARGIN_M = 0.25
-"""What may throw a shadow into the picture from outside of it."""
 SAMPLES = 2
 """Samples per pixel, each way."""
 
@@ -131,51 +117,9 @@ def render(
 
     Returns: RGB, or RGBA with an empty background when `transparent`.
     """
-    from azee.export.raster import fill, shade
+    from azee.export.canvas import Canvas
 
-    width, height = size[0] * samples, size[1] * samples
-    vertices = np.array(vertices, dtype=np.float64)
-    triangles = np.array(mesh.triangles)
-    normals = vertex_normals(vertices, mesh.triangles)
-    screen, inverse_w = projected(vertices, camera, width, height)
-    depth = np.full((height, width), 1e30)
-    seen = np.full((height, width), -1, dtype=np.int32)
-    fill(screen, triangles, depth, seen)
-
-    reach = np.tan(camera.height_rad / 2.0) * np.linalg.norm(camera.eye - camera.target)
-    reach_m = float(reach) + SHADOW_MARGIN_M
-    shadow_from = _shadow_map(camera.target, reach_m)
-    lit = np.ascontiguousarray(vertices @ shadow_from[:3].T + shadow_from[3])
-    shadow = np.full((SHADOW_SAMPLES, SHADOW_SAMPLES), 1e30)
-    fill(lit, triangles, shadow, np.full(shadow.shape, -1, dtype=np.int32))
-
-    colours = np.ones((len(vertices), 3))
-    roughness = np.ones(len(triangles))
-    for part in mesh.parts:
-        run = slice(part.start, part.stop)
-        roughness[run] = part.roughness
-        used = mesh.triangles[run].ravel()
-        colours[used] = mesh.colours[used] * part.colour[:3]
-    light = np.zeros((size[1], size[0], 4))
-    shade(
-        screen,
-        inverse_w,
-        triangles,
-        vertices,
-        normals,
-        colours,
-        roughness,
-        seen,
-        np.array(camera.eye, dtype=np.float64),
-        SUN,
-        LIGHTS,
-        shadow_from,
-        shadow,
-        2.0 * reach_m / SHADOW_SAMPLES,
-        samples,
-        light,
-    )
-    return _developed(light / samples**2, transparent)
+    return Image.fromarray(Canvas(mesh, size, samples).draw(vertices, camera, transparent))
 
 
 def picture(
@@ -247,38 +191,3 @@ def depth_map(vertices: Floats, triangles: Ints, camera: Camera, size: tuple[int
     depth = np.full((size[1], size[0]), 1e30)
     fill(screen, np.array(triangles), depth, np.full(depth.shape, -1, dtype=np.int32))
     return np.where(depth < 0.0, -1.0 / depth, np.inf)
-
-
-def _shadow_map(target: Floats, reach_m: float) -> Floats:
-    """Rows that map a place to samples x, y and depth in metres of the key light's view."""
-    right = np.cross([0.0, 1.0, 0.0], SUN)
-    right = right / np.linalg.norm(right)
-    up = np.cross(SUN, right)
-    per_metre = SHADOW_SAMPLES / 2.0 / reach_m
-    rows = np.stack([right * per_metre, -up * per_metre, -SUN])
-    constant = np.array([SHADOW_SAMPLES / 2.0, SHADOW_SAMPLES / 2.0, 0.0]) - rows @ target
-    return np.ascontiguousarray(np.concatenate([rows, constant[None]]))
-
-
-def _developed(mean: Floats, transparent: bool) -> Image.Image:
-    """Encode mean linear light and coverage (H, W, 4) as sRGB over the background."""
-    height = len(mean)
-    cover = mean[..., 3:]
-    if transparent:
-        rgb = _encoded(mean[..., :3] / np.where(cover > 0.0, cover, 1.0))
-        rgba = np.concatenate([rgb, cover], axis=2)
-        return Image.fromarray(np.round(rgba * 255.0).astype(np.uint8), "RGBA")
-    top, bottom = (np.array(c) ** 2.2 for c in BACKGROUND)
-    at = np.linspace(0.0, 1.0, height)[:, None, None]
-    rgb = _encoded(mean[..., :3] + (1.0 - cover) * (top + at * (bottom - top)))
-    return Image.fromarray(np.round(rgb * 255.0).astype(np.uint8), "RGB")
-
-
-def _encoded(linear: Floats) -> Floats:
-    """Encode linear light as sRGB (IEC 61966-2-1), highlights rolled off towards white."""
-    knee = 0.8
-    over = np.maximum(linear - knee, 0.0)
-    x = np.minimum(linear, knee) + (1.0 - knee) * (over / (1.0 - knee + over))
-    steps = np.linspace(0.0, 1.0, 4097)
-    table = np.where(steps <= 0.0031308, 12.92 * steps, 1.055 * steps ** (1.0 / 2.4) - 0.055)
-    return np.asarray(table[np.clip(x * 4096.0, 0.0, 4096.0).astype(np.int64)])

@@ -14,9 +14,21 @@ from typing import BinaryIO
 def replace_file(path: str | Path) -> Iterator[BinaryIO]:
     """Open a file for binary writing that takes the place of `path` once all went well.
 
-    The bytes go to a hidden neighbour in the same folder, reach the disk, and only then get the
-    name; after any exception `path` is as it was before and the neighbour is gone. A symbolic
-    link is followed, and the permissions are those a plain `open` would give.
+    Raises: OSError: as `replace_path`.
+    """
+    with replace_path(path) as part, part.open("wb") as file:
+        yield file
+        file.flush()
+        os.fsync(file.fileno())
+
+
+@contextmanager
+def replace_path(path: str | Path) -> Iterator[Path]:
+    """Give a path to write to, which takes the place of `path` once all went well.
+
+    It is a hidden neighbour in the same folder that then gets the name; after any exception `path`
+    is as it was before and the neighbour is gone. A symbolic link is followed, and the permissions
+    are those a plain `open` would give.
 
     Raises: OSError: the folder is missing or not writable, or `path` is a folder.
     """
@@ -24,12 +36,10 @@ def replace_file(path: str | Path) -> Iterator[BinaryIO]:
     if target.is_dir():
         raise IsADirectoryError(21, "it is a directory", str(path))
     number, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent)
+    os.close(number)
     part = Path(name)
     try:
-        with os.fdopen(number, "wb") as file:
-            yield file
-            file.flush()
-            os.fsync(file.fileno())
+        yield part
         part.chmod(_permissions(target))
         part.replace(target)
     except BaseException:

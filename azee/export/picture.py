@@ -83,7 +83,7 @@ def camera(rig: Rig, q: Floats, view: str) -> Camera:
                 "tips": R[:, 1],
             }[view.removeprefix(f"{hand} ")]
             middle = frames.positions[node] + 0.075 * R[:, 1]
-            return _from(middle, towards, 0.13)
+            return from_direction(middle, towards, 0.13)
     what, towards_eye, half_height = VIEWS[view]
     if what == "body":
         target = rig.landmarks.shoulder_middle + np.array([0.0, -0.17, 0.05])
@@ -96,10 +96,11 @@ def camera(rig: Rig, q: Floats, view: str) -> Camera:
     else:
         node = rig.bones[what].node
         target = frames.positions[node] + 0.075 * frames.rotations[node][:, 1]
-    return _from(target, np.array(towards_eye), half_height)
+    return from_direction(target, np.array(towards_eye), half_height)
 
 
-def _from(target: Floats, towards_eye: Floats, half_height: float) -> Camera:
+def from_direction(target: Floats, towards_eye: Floats, half_height: float) -> Camera:
+    """Return the camera that shows so many metres above and below a target, from one side."""
     direction = towards_eye / np.linalg.norm(towards_eye)
     return Camera(target + direction * half_height / np.tan(_LENS_RAD / 2.0), target, _LENS_RAD)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from azee.formats import SUFFIXES, WRITERS, writing
+from azee.formats import WRITERS, writing
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
@@ -58,13 +58,13 @@ class Compilation:
             file.write(f"{data}\n".encode())
 
     def save(self, path: str | Path) -> None:
-        """Write a file whose suffix names the format: one of `SUFFIXES`.
+        """Write a file whose suffix names the format: one of `SUFFIXES` or `FILM_SUFFIXES`.
 
-        Raises: ValueError: no format has that suffix. AZeeError: cannot-write.
+        Raises: ValueError: no format has that suffix. AZeeError: cannot-write, not-installed.
         """
         write = WRITERS.get(Path(path).suffix.lower())
         if write is None:
-            raise ValueError(f"no format has the suffix of {path}; known are {' '.join(SUFFIXES)}")
+            raise ValueError(f"no format has the suffix of {path}; known are {' '.join(WRITERS)}")
         with writing(path):
             write(self, Path(path))
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
     from azee.compilation import Compilation
+    from azee.motion.clip import Clip
+    from azee_rig.rig import Rig
 
 
 @contextmanager
@@ -42,22 +44,55 @@ def cannot_write(path: str | Path, error: OSError) -> Diagnostic:
     return Diagnostic("cannot-write", f"cannot write `{path}`: {reason.lower()}", None)
 
 
-def _glb(made: Compilation, path: Path) -> None:
+def _glb(clip: Clip, rig: Rig, path: Path) -> None:
     from azee.export.glb import write_glb
 
-    write_glb(made.clip, made.rig, path)
+    write_glb(clip, rig, path)
 
 
-def _bvh(made: Compilation, path: Path) -> None:
+def _bvh(clip: Clip, rig: Rig, path: Path) -> None:
     from azee.export.bvh import write_bvh
 
-    write_bvh(made.clip, made.rig, path)
+    write_bvh(clip, rig, path)
 
 
-def _json(made: Compilation, path: Path) -> None:
+def _json(clip: Clip, rig: Rig, path: Path) -> None:
     from azee.export.clip_json import write_json
 
-    write_json(made.clip, made.rig, path)
+    write_json(clip, rig, path)
+
+
+def _npz(clip: Clip, rig: Rig, path: Path) -> None:
+    from azee.export.files import replace_file
+    from azee.motion.clip_file import write_clip
+
+    with replace_file(path) as file:
+        write_clip(clip, rig, file)
+
+
+def _film(clip: Clip, rig: Rig, path: Path) -> None:
+    from azee.export.film import write_film
+
+    with filming():
+        write_film(clip, rig, path)
+
+
+@contextmanager
+def filming() -> Iterator[None]:
+    """Tell in the user's words what films need.
+
+    Raises: AZeeError: not-installed.
+    """
+    from azee.export.film import NoEncoderError
+
+    try:
+        yield
+    except NoEncoderError as error:
+        raise AZeeError(
+            Diagnostic(
+                "not-installed", str(error), None, help="install it with: pip install 'azee[film]'"
+            )
+        ) from error
 
 
 def _svg(made: Compilation, path: Path) -> None:
@@ -72,12 +107,21 @@ def _png(made: Compilation, path: Path) -> None:
     write_png(made.clip, made.rig, path, made.animation.key_times)
 
 
+def _of_compilation(write: ClipWriter) -> Callable[[Compilation, Path], None]:
+    return lambda made, path: write(made.clip, made.rig, path)
+
+
+ClipWriter: TypeAlias = "Callable[[Clip, Rig, Path], None]"
+
+CLIP_WRITERS: dict[str, ClipWriter] = {".glb": _glb, ".bvh": _bvh, ".json": _json, ".npz": _npz}
+"""Formats of a clip alone."""
 WRITERS: dict[str, Callable[[Compilation, Path], None]] = {
-    ".glb": _glb,
-    ".bvh": _bvh,
-    ".json": _json,
+    **{suffix: _of_compilation(write) for suffix, write in CLIP_WRITERS.items()},
     ".svg": _svg,
     ".png": _png,
 }
 SUFFIXES = tuple(WRITERS)
-"""Suffixes of the formats that a compilation can be saved in."""
+"""Suffixes of the formats that a compilation can be saved in, but for films."""
+FILM_SUFFIXES = (".mp4", ".webm")
+"""Suffixes of films, which take longer and need the extra `film`."""
+WRITERS |= dict.fromkeys(FILM_SUFFIXES, _of_compilation(_film))

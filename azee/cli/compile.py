@@ -15,7 +15,7 @@ from azee.cli.outcome import outcome
 from azee.cli.outputs import check_outputs, with_suffix
 from azee.cli.text import Text, dominant_option, text_options
 from azee.compilation import perform
-from azee.formats import SUFFIXES
+from azee.formats import WRITERS
 from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
@@ -38,8 +38,8 @@ def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
     metavar="OUT",
     multiple=True,
     type=click.Path(path_type=Path),
-    callback=with_suffix(*SUFFIXES),
-    help=f"A file to write; its suffix is the format: {' '.join(SUFFIXES)}. "
+    callback=with_suffix(*WRITERS),
+    help=f"A file to write; its suffix is the format: {' '.join(WRITERS)}. "
     "Repeatable: all come from one solution.",
 )
 @click.option(

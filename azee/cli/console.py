@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from threading import Timer
 from typing import TYPE_CHECKING, Any
@@ -87,6 +87,20 @@ def working(text: str, *, quiet: bool = False) -> Iterator[Progress]:
 
     with Console(stderr=True).status(text) as status:
         yield Progress(status)
+
+
+@contextmanager
+def bar(text: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], None] | None]:
+    """Show how much of long work is done; gives what is to be told of the parts done, and all."""
+    if quiet or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import Progress as Bar
+
+    with Bar(console=Console(stderr=True), transient=True) as shown:
+        task = shown.add_task(text, total=None)
+        yield lambda done, total: shown.update(task, completed=done, total=total)
 
 
 def _coloured() -> bool:

@@ -13,11 +13,13 @@ from collections.abc import Sequence
 import click
 
 from azee.cli.check import check
+from azee.cli.clip import clip
 from azee.cli.compile import compile_
 from azee.cli.console import DONE, FAULT, INTERRUPTED, show
 from azee.cli.find import find
 from azee.cli.fmt import fmt
 from azee.cli.lsp import lsp
+from azee.cli.render import render
 from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
@@ -34,6 +36,8 @@ azee.add_command(compile_)
 azee.add_command(check)
 azee.add_command(fmt)
 azee.add_command(score)
+azee.add_command(render)
+azee.add_command(clip)
 azee.add_command(find)
 azee.add_command(lsp)
 azee.add_command(rules)

@@ -20,7 +20,7 @@ def outcome(made: Compilation, written: Sequence[Path]) -> str:
         f"{length}, {len(report.postures)} key postures, {len(report.constraints)} constraints",
         *_iterations(made),
         *_misses([result for result in report.constraints if not result.met]),
-        *(f"wrote {path} ({_size(path)})" for path in written),
+        *(f"wrote {path} ({size_of(path)})" for path in written),
     ]
     if not written:
         lines.append("nothing written: name files with -o")
@@ -62,6 +62,7 @@ def _amount(residual: float | None, unit: str) -> str:
     return f"{residual * 1000:.1f} mm" if unit == "m" else f"{math.degrees(residual):.1f}°"
 
 
-def _size(path: Path) -> str:
+def size_of(path: Path) -> str:
+    """Size of a file in kB or MB, for people."""
     size = path.stat().st_size
     return f"{size / 1e6:.1f} MB" if size >= 1e6 else f"{max(1, round(size / 1e3))} kB"

@@ -20,7 +20,6 @@ from azee.motion.clip import Clip
 from azee.motion.resample import at_rate
 from azee_rig.rig import Rig
 
-SUFFIXES = (".mp4", ".webm")
 BT709 = 1
 """Number of BT.709 as primaries, transfer and matrix in H.264, VP9 and their containers."""
 LIMITED = 1
@@ -38,16 +37,16 @@ CONTAINERS = {
 }
 
 
-class FilmError(Exception):
-    """A film that cannot be made, in the user's words."""
+class NoEncoderError(Exception):
+    """PyAV is not installed."""
 
 
-def require_encoder() -> Any:
-    """Return PyAV. Raises: FilmError: it is not installed."""
+def encoder() -> Any:
+    """Return PyAV. Raises: NoEncoderError: it is not installed."""
     try:
         import av
     except ImportError as error:
-        raise FilmError("films are encoded by PyAV, which is not installed") from error
+        raise NoEncoderError("films are encoded by PyAV, which is not installed") from error
     return av
 
 
@@ -68,15 +67,15 @@ def write_film(
     """Write a film of a clip, sampled at a rate of its own.
 
     Args: progress: called with the frames that are done, and all of them.
-    Raises: FilmError: PyAV is missing, or the format has no transparency. KeyError: no such
-        camera. OSError.
+    Raises: NoEncoderError. ValueError: the format has no transparency. KeyError: no such camera.
+        OSError.
     """
-    av = require_encoder()
+    av = encoder()
     suffix = Path(path).suffix.lower()
     look = look or Look()
     look = replace(look, size=even(look.size))
     if look.transparent and suffix != ".webm":
-        raise FilmError("MP4 has no transparency; WebM has")
+        raise ValueError("MP4 has no transparency; WebM has")
     scene = Scene(at_rate(clip, fps, rig.coordinates), rig, look)
     with (
         replace_path(path) as part,

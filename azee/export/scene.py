@@ -13,9 +13,9 @@ from queue import SimpleQueue
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.export.camerawork import cameras
 from azee.export.canvas import Canvas
 from azee.export.picture import SAMPLES
-from azee.export.shot import cameras
 from azee.export.strip import Strip
 from azee.motion.clip import Clip
 from azee_rig.rig import Rig

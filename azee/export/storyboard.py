@@ -30,9 +30,7 @@ def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) 
     """
     from azee.export.picture import contact_sheet, picture
 
-    frames = sorted({int(np.abs(clip.times - moment).argmin()) for moment in moments})
-    shapes = np.hstack([clip.coordinates, FACE_RAD * clip.unit_weights])[frames]
-    chosen = [frames[i] for i in telling(shapes, MOST)]
+    chosen = telling_frames(clip, moments, MOST)
     pictures = []
     for view in VIEWS:
         for frame in chosen:
@@ -43,6 +41,13 @@ def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) 
     contact_sheet(pictures, columns=len(chosen)).save(data, "PNG", optimize=True)
     with replace_file(path) as file:
         file.write(data.getvalue())
+
+
+def telling_frames(clip: Clip, moments: Sequence[float], most: int) -> list[int]:
+    """Choose, of the frames at some moments (seconds), those whose postures tell most."""
+    frames = sorted({int(np.abs(clip.times - moment).argmin()) for moment in moments})
+    shapes = np.hstack([clip.coordinates, FACE_RAD * clip.unit_weights])[frames]
+    return [frames[i] for i in telling(shapes, most)]
 
 
 def telling(shapes: NDArray[np.float64], most: int) -> list[int]:

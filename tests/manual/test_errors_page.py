@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import ast
 import dataclasses
+import io
 import re
 import shlex
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from diagnostic_codes import UnknownCodeError, codes, codes_in
 from pages import Block, blocks, page, pairs
@@ -16,9 +18,12 @@ from pages import Block, blocks, page, pairs
 from azee.cli.main import run
 from azee.compilation import lacks
 from azee.lang.program import load
+from azee.motion.clip import Clip
+from azee.motion.clip_file import write_clip
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.render import render
 from azee_grammar.source import Source
+from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 
 PAGE = page("errors.md")
@@ -27,11 +32,22 @@ EXAMPLES = [(block, shown) for block, shown in pairs(BLOCKS) if block.kind == "a
 COMMANDS = [block for block in BLOCKS if block.kind == "console"]
 ENTRIES = re.findall(r"^### `([a-z0-9-]+)`$", PAGE, re.M)
 
+
+def _sign() -> bytes:
+    """A clip of two seconds, in which nothing happens."""
+    rig = load_rig("signer")
+    still = np.tile(rig.coordinates.idle, (61, 1))
+    file = io.BytesIO()
+    write_clip(Clip(np.arange(61) / 30, still, (), np.zeros((61, 0))), rig, file)
+    return file.getvalue()
+
+
 FILES = {
     "north/tea.azee": b"def tea\n    :bien\n",
     "south/tea.azee": b"def tea\n    :mignon\n",
     "rules-only.azee": b"def tea\n    :bien\n",
     "latin-1.azee": ":âge\n".encode("latin-1"),
+    "sign.npz": _sign(),
 }
 """What the examples find beside them."""
 

@@ -20,6 +20,8 @@ sys.exit(code)
 LOADS: dict[tuple[str, ...], set[str]] = {
     ("--help",): set(),
     ("compile", "--help"): set(),
+    ("render", "--help"): set(),
+    ("clip", "cut", "--help"): set(),
     ("rig", "--help"): set(),
     ("rig", "sites", "--format", "json"): {"numpy"},
     ("check", "--quiet", "text.azee"): {"lark"},

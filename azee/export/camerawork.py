@@ -10,23 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.export.picture import Camera, camera, from_direction
+from azee.export.shots import SHOTS
 from azee.motion.clip import Clip
 from azee_rig.rig import Rig
 
 Floats = NDArray[np.float64]
 
-SHOTS = (
-    "front",
-    "side",
-    "three-quarter",
-    "face",
-    "hands",
-    "right hand",
-    "left hand",
-    "whole",
-    "back",
-)
-"""Names of the cameras of a film."""
 FOLLOW_S = 0.25
 """Standard deviation of the Gaussian that smooths where the camera looks."""
 AWAY_M = 0.05, 0.2
@@ -35,6 +24,8 @@ PALM_M = 0.075
 """From the wrist to about the middle of the hand."""
 MARGIN_M = 0.17
 """What is shown around the middles of the hands."""
+CLOSER = 0.86
+"""Distance of a film's cameras by that of the still ones: the frame keeps its upper edge."""
 STEADY = ("whole", "back", "front", "side", "three-quarter")
 
 
@@ -46,11 +37,21 @@ def cameras(clip: Clip, rig: Rig, shot: str, aspect: float) -> list[Camera]:
     if shot not in SHOTS:
         raise KeyError(shot)
     if shot in STEADY:
-        return [camera(rig, rig.coordinates.idle, shot)] * len(clip.times)
+        return [_closer(camera(rig, rig.coordinates.idle, shot), shot)] * len(clip.times)
     if shot == "face":
         return _following_face(clip, rig)
     sides = {"hands": "RL", "right hand": "R", "left hand": "L"}[shot]
     return _following_hands(clip, rig, sides, aspect)
+
+
+def _closer(still: Camera, shot: str) -> Camera:
+    """Leave out the legs, but not what is above the head: hands come there."""
+    if shot == "whole":
+        return still
+    way = still.eye - still.target
+    raised = (1.0 - CLOSER) * np.linalg.norm(way) * np.tan(still.height_rad / 2.0)
+    target = still.target + np.array([0.0, raised, 0.0])
+    return Camera(target + CLOSER * way, target, still.height_rad)
 
 
 def _following_face(clip: Clip, rig: Rig) -> list[Camera]:
@@ -68,13 +69,13 @@ def _following_hands(clip: Clip, rig: Rig, sides: str, aspect: float) -> list[Ca
     rests = np.stack([_middles(rig, rig.coordinates.idle[None], side)[0] for side in sides])
     away = np.linalg.norm(middles - rests, axis=2)
     busy = np.clip((away - AWAY_M[0]) / (AWAY_M[1] - AWAY_M[0]), 0.0, 1.0) + 1e-3
-    busy = _smoothed(clip.times, busy / busy.max(axis=1, keepdims=True))
-    places = _smoothed(clip.times, middles)
-    target = (busy[..., None] * places).sum(axis=1) / busy.sum(axis=1)[:, None]
-    apart = np.abs(places - target[:, None]) * busy[..., None]
+    busy /= busy.max(axis=1, keepdims=True)
+    target = (busy[..., None] * middles).sum(axis=1) / busy.sum(axis=1)[:, None]
+    apart = np.abs(middles - target[:, None]) * busy[..., None]
     half = MARGIN_M + np.maximum(
         apart[..., 1].max(axis=1), apart[..., 0].max(axis=1) / max(aspect, 1e-3)
     )
+    target, half = (_smoothed(clip.times, values) for values in (target, half))
     towards = np.array([0.0, 0.1, 1.0])
     return [from_direction(t, towards, float(h)) for t, h in zip(target, half, strict=True)]
 

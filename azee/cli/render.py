@@ -1,0 +1,206 @@
+"""`azee render`: pictures and films of a text or of a clip, without a display."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from azee.cli.body import load_body
+from azee.cli.console import bar, news, working
+from azee.cli.outcome import size_of
+from azee.cli.outputs import check_outputs, with_suffix
+from azee.cli.text import Text, dominant_option, text_options
+from azee.clips import CLIP_SUFFIXES
+from azee.export.shots import SHOTS
+from azee.formats import FILM_SUFFIXES, filming, writing
+
+if TYPE_CHECKING:
+    from azee.compilation import Hand
+    from azee.export.scene import Look
+    from azee.motion.clip import Clip
+    from azee_rig.rig import Rig
+
+_SIZE = re.compile(r"(\d{1,5})\s*[x×]\s*(\d{1,5})", re.ASCII)
+_SECONDS = re.compile(r"(\d+(?:\.\d+)?)\s*s?", re.ASCII)
+
+
+def _size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
+    found = _SIZE.fullmatch(value)
+    size = (int(found[1]), int(found[2])) if found else (0, 0)
+    if not all(16 <= side <= 8192 for side in size):
+        raise click.BadParameter(f"`{value}` is no size such as 1280x720, from 16 to 8192 pixels")
+    return size
+
+
+def _moments(_: click.Context, __: click.Parameter, values: Sequence[str]) -> tuple[float, ...]:
+    found = [_SECONDS.fullmatch(value) for value in values]
+    if bad := [value for value, match in zip(values, found, strict=True) if match is None]:
+        raise click.BadParameter(f"`{bad[0]}` is no time such as 1.2s")
+    return tuple(float(match[1]) for match in found if match)
+
+
+@click.command(short_help="Pictures and films, without a display.")
+@text_options
+@click.option(
+    "-o",
+    "outputs",
+    metavar="OUT",
+    multiple=True,
+    required=True,
+    type=click.Path(path_type=Path),
+    callback=with_suffix(".png", *FILM_SUFFIXES),
+    help="A picture (.png) or a film (.mp4 .webm); repeatable: all show one solution.",
+)
+@click.option(
+    "--camera",
+    "shots",
+    multiple=True,
+    default=("front",),
+    show_default=True,
+    type=click.Choice(SHOTS),
+    help="From where; several stand side by side. Those on face and hands follow them.",
+)
+@click.option(
+    "--size", default="1280x720", show_default=True, callback=_size, help="Pixels, WIDTHxHEIGHT."
+)
+@click.option(
+    "--fps",
+    type=click.FloatRange(1, 240),
+    default=30,
+    show_default=True,
+    help="Frames a second of a film.",
+)
+@click.option(
+    "--at",
+    "moments",
+    multiple=True,
+    metavar="TIME",
+    callback=_moments,
+    help="The time of a picture, such as 1.2s; several stand side by side.",
+)
+@click.option(
+    "--sheet", is_flag=True, help="Pictures of the key postures, and of half the way between them."
+)
+@click.option("--no-captions", is_flag=True, help="No strip with the names of what is running.")
+@click.option("--transparent", is_flag=True, help="No background; in .png and .webm.")
+@click.option("--rig", metavar="R", help="A body by name, or its folder.")
+@dominant_option
+@click.option("--no-life", is_flag=True, help="No breathing and no blinking.")
+@click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
+def render(
+    file: str | None,
+    expression: str | None,
+    utterance: int | None,
+    libraries: Sequence[Path],
+    outputs: Sequence[Path],
+    shots: Sequence[str],
+    size: tuple[int, int],
+    fps: float,
+    moments: Sequence[float],
+    sheet: bool,
+    no_captions: bool,
+    transparent: bool,
+    rig: str | None,
+    dominant: Hand,
+    no_life: bool,
+    quiet: bool,
+) -> None:
+    """Draw FILE, a text or a clip (.npz, .bvh), as pictures and films."""
+    from azee.export.scene import Look
+
+    films = [path for path in outputs if path.suffix.lower() in FILM_SUFFIXES]
+    if transparent and any(path.suffix.lower() == ".mp4" for path in films):
+        raise click.UsageError("MP4 has no transparency; write a .webm")
+    if (moments or sheet) and films:
+        raise click.UsageError("--at and --sheet are of pictures; a film shows all")
+    if moments and sheet:
+        raise click.UsageError("--at and --sheet exclude each other")
+    try:
+        look = Look(size, tuple(shots), not no_captions, transparent)
+    except ValueError as error:
+        raise click.UsageError(str(error)) from error
+    check_outputs(outputs)
+    if films:
+        _encoder_there()
+    if file is not None and Path(file).suffix.lower() in CLIP_SUFFIXES:
+        clip, body, keys = _of_clip(Path(file), expression, rig)
+    else:
+        text = Text.read(file, expression, utterance, libraries)
+        clip, body, keys = _of_text(text, rig or "signer", dominant, not no_life, quiet)
+    beyond = [m for m in moments if m > clip.times[-1]]
+    if beyond:
+        raise click.BadParameter(
+            f"{beyond[0]:g} s is after the end, at {clip.times[-1]:.2f} s", param_hint="'--at'"
+        )
+    for path in outputs:
+        if path in films:
+            _film(clip, body, path, look, fps, quiet)
+        else:
+            _picture(clip, body, path, look, moments, keys, sheet)
+        news(f"wrote {path} ({size_of(path)})", quiet=quiet)
+
+
+def _encoder_there() -> None:
+    from azee.export.film import encoder
+
+    with filming():
+        encoder()
+
+
+def _of_text(
+    text: Text, rig: str, dominant: Hand, life: bool, quiet: bool
+) -> tuple[Clip, Rig, Sequence[float]]:
+    from azee.compilation import perform
+
+    body = load_body(rig)
+    score = text.score(dominant)
+    with working("Solving …", quiet=quiet):
+        made = perform(score, body, dominant=dominant, life=life)
+    return made.clip, body, made.animation.key_times
+
+
+def _of_clip(
+    file: Path, expression: str | None, rig: str | None
+) -> tuple[Clip, Rig, Sequence[float] | None]:
+    from azee.clips import open_clip
+    from azee_rig.load import RigError
+
+    if expression is not None:
+        raise click.UsageError("an expression, -e, does not go with a clip")
+    body = None if rig is None else load_body(rig)
+    try:
+        found = open_clip(file, body)
+    except RigError as error:
+        raise click.BadParameter(str(error), param_hint="'--rig'") from error
+    for note in found.notes:
+        news(f"{file}: {note}")
+    return found.clip, found.rig, None
+
+
+def _film(clip: Clip, body: Rig, path: Path, look: Look, fps: float, quiet: bool) -> None:
+    from azee.export.film import write_film
+
+    with bar(f"Filming {path}", quiet=quiet) as progress, writing(path):
+        write_film(clip, body, path, look, fps=fps, progress=progress)
+
+
+def _picture(
+    clip: Clip,
+    body: Rig,
+    path: Path,
+    look: Look,
+    moments: Sequence[float],
+    keys: Sequence[float] | None,
+    sheet: bool,
+) -> None:
+    from azee.export.still import write_moments, write_sheet
+
+    with writing(path):
+        if sheet:
+            write_sheet(clip, body, path, look, keys)
+        else:
+            write_moments(clip, body, path, look, moments or [clip.duration_s / 2])

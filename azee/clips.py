@@ -1,0 +1,101 @@
+"""Clips in files: opened for a body, whatever the format, and written in one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from azee.formats import CLIP_WRITERS, writing
+from azee_grammar.diagnostic import AZeeError, Diagnostic
+
+if TYPE_CHECKING:
+    from azee.motion.clip import Clip
+    from azee_rig.rig import Rig
+
+CLIP_SUFFIXES = (".npz", ".bvh")
+"""Formats that clips are read from."""
+SHIPPED = "signer"
+
+
+@dataclass(frozen=True, eq=False)
+class OpenClip:
+    """A clip, the body it moves, and what its user should know about how it was read."""
+
+    clip: Clip
+    rig: Rig
+    notes: tuple[str, ...] = ()
+
+
+def open_clip(path: str | Path, rig: Rig | None = None) -> OpenClip:
+    """Read a clip that `azee` stored (.npz) or a BVH file.
+
+    Args: rig: the body; by default the one that a stored clip names, else the signer.
+    Raises: AZeeError: cannot-read, not-a-clip. RigError: the rig that it names is not there.
+    """
+    path = Path(path)
+    try:
+        if path.suffix.lower() == ".bvh":
+            return _recorded(path, rig)
+        return _stored(path, rig)
+    except OSError as error:
+        raise AZeeError(_unreadable(path, error)) from error
+
+
+def save_clip(clip: Clip, rig: Rig, path: str | Path) -> None:
+    """Write a clip; the suffix names the format: one of `CLIP_WRITERS`.
+
+    Raises: AZeeError: cannot-write. ValueError: no format has that suffix.
+    """
+    write = CLIP_WRITERS.get(Path(path).suffix.lower())
+    if write is None:
+        raise ValueError(f"no format has the suffix of {path}; known are {' '.join(CLIP_WRITERS)}")
+    with writing(path):
+        write(clip, rig, Path(path))
+
+
+def _stored(path: Path, rig: Rig | None) -> OpenClip:
+    from azee.motion.clip_file import ClipFileError, read_clip, rig_of
+    from azee_rig.load import load_rig
+
+    try:
+        body = rig or load_rig(rig_of(path) or SHIPPED)
+        return OpenClip(read_clip(path, body), body)
+    except ClipFileError as error:
+        raise AZeeError(_no_clip(str(error))) from error
+
+
+def _recorded(path: Path, rig: Rig | None) -> OpenClip:
+    from azee.motion.bvh import BvhError, read_bvh
+    from azee.motion.clip_bvh import LOST_RAD, is_own, own_clip
+    from azee_rig.load import load_rig
+
+    try:
+        recording = read_bvh(path)
+    except BvhError as error:
+        raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
+    body = rig or load_rig(SHIPPED)
+    if not is_own(recording, body):
+        raise AZeeError(_no_clip(f"`{path}` moves another skeleton than that of `{body.name}`"))
+    clip, lost_rad = own_clip(recording, body)
+    notes: Sequence[str] = ()
+    if lost_rad > LOST_RAD:
+        notes = (
+            f"the body cannot do all of it: joints are up to {math.degrees(lost_rad):.1f}° off",
+        )
+    return OpenClip(clip, body, tuple(notes))
+
+
+def _no_clip(message: str) -> Diagnostic:
+    return Diagnostic("not-a-clip", message, None)
+
+
+def _unreadable(path: Path, error: OSError) -> Diagnostic:
+    if isinstance(error, FileNotFoundError):
+        return Diagnostic("cannot-read", f"there is no file `{path}`", None)
+    if isinstance(error, IsADirectoryError):
+        return Diagnostic("cannot-read", f"`{path}` is a directory", None)
+    reason = error.strerror or type(error).__name__
+    return Diagnostic("cannot-read", f"cannot read `{path}`: {reason.lower()}", None)

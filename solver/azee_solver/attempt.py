@@ -19,7 +19,6 @@ from azee_solver.collisions import Obstacles
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
 from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
-from azee_solver.nlopt_backend import minimise
 from azee_solver.options import SolveOptions
 from azee_solver.program import Collisions, Cost, Program, Row
 from azee_solver.residuals import Residuals, lower
@@ -41,9 +40,11 @@ EYE_COMFORT = 300.0
 """Keeps led eyes in the middle of their range, so that the head takes the rest."""
 
 GAIN = 0.8
-"""A descent has gained something if it brings overlap or cost below this part of the best."""
+"""A descent has gained something if it brings the cost below this part of the best."""
 DEEP = 2.0
 """Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
+FAR = 30.0
+"""Beyond so many tolerances a miss pulls no harder, once it is known that it must miss."""
 POLISH, POLISH_EASE, POLISH_OVERLAP = 5.0, 0.01, 0.3
 """Misses below so many tolerances are tried again with posture, comfort and overlap at a part."""
 
@@ -122,13 +123,15 @@ def solve_group(
     first: Sequence[Array] = (),
     only_first: bool = False,
     thorough: bool = True,
+    to_the_end: bool = True,
 ) -> Result:
     """Return the best posture found for some demands when some coordinates may move.
 
     Args: q: (V,) the posture so far. unsettled: coordinates that other problems will still move.
         ease: factors of the demands' weights. first: postures (V,) to start from before the
         others, or instead of them. thorough: look on while the body is in the way; else leave
-        that to a wider problem.
+        that to a wider problem. to_the_end: get as near as can be to what is missed; else leave
+        that to the next try.
     """
     attempt = _Attempt(body, demands, q, free, unsettled, ease or {})
     if not attempt.residuals.rows:
@@ -136,21 +139,25 @@ def solve_group(
     indices = attempt.program.free
     known = starts(body.rig.coordinates, indices, q, body.options.further_starts)
     best = attempt.search(chain((p[indices] for p in first), () if only_first else known), thorough)
+    if to_the_end or not best.lost():
+        best = attempt.finished(best)
     body.evaluations += attempt.program.evaluations
     return best
 
 
-def _merit(result: Result, options: SolveOptions) -> tuple[int, float, float]:
-    """Return misses, then overlap beyond what is tolerated, then cost: the less the better."""
-    excess = max(result.overlap_m - options.overlap_m, 0.0) / options.tolerance.length_m
-    return len(result.lost()), excess, result.cost + excess**2
+def _excess(result: Result, options: SolveOptions) -> float:
+    """Overlap beyond what is tolerated, in tolerances."""
+    return max(result.overlap_m - options.overlap_m, 0.0) / options.tolerance.length_m
 
 
-def _gains(one: tuple[int, float, float], best: tuple[int, float, float]) -> bool:
+def _merit(result: Result, options: SolveOptions) -> tuple[int, float]:
+    """Return misses, then cost with overlap: the less the better."""
+    return len(result.lost()), result.cost + _excess(result, options) ** 2
+
+
+def _gains(one: tuple[int, float], best: tuple[int, float]) -> bool:
     """Whether a merit is so much better than the best that looking on may be worth it."""
-    return one[0] < best[0] or (
-        one[0] == best[0] and (one[1] < GAIN * best[1] or one[2] < GAIN * best[2])
-    )
+    return one[0] < best[0] or (one[0] == best[0] and one[1] < GAIN * best[1])
 
 
 def _turns_head(constraint: Constraint, binding: Binding) -> bool:
@@ -183,7 +190,11 @@ class _Attempt:
         tape = Tape(body.evaluator, frames, moving)
         self.residuals: Residuals = lower(tape, demands, options.tolerance, ease)
         rows = [*self.residuals.rows, *self._level(tape, free)]
-        self.collisions = body.obstacles.for_problem(free, unsettled - free)
+        self.collisions = (
+            body.obstacles.for_problem(free, unsettled - free)
+            if options.overlap
+            else Collisions.none()
+        )
         self.cost = self._cost(free)
         self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, self.cost)
 
@@ -199,8 +210,9 @@ class _Attempt:
             tried.add(start.tobytes())
             result = self._polished(self.descend(start))
             merit = _merit(result, options)
-            if not any(merit[:2]):
-                return result
+            if not merit[0] and not _excess(result, options):
+                best = result
+                break
             gained = best is None or _gains(merit, _merit(best, options))
             if best is None or merit < _merit(best, options):
                 best = result
@@ -209,6 +221,27 @@ class _Attempt:
                 break
         assert best is not None
         return best
+
+    def finished(self, result: Result) -> Result:
+        """Go on to the very bottom, so that near targets end in near postures.
+
+        Far from what they want, Gauss-Newton steps are short: there NLopt goes on first. What is
+        far away pulls less then, so that it does not press the body into itself.
+        """
+        options, program = self.body.options, self.program
+        weights = program.section(kernels.ROW_NUMBERS).reshape(-1, 2)
+        kept = weights.copy()
+        x = result.q[program.free]
+        if result.lost():
+            for i in result.lost():
+                start, stop = self.residuals.runs[i]
+                weights[start:stop, 0] *= min(1.0, FAR / result.ratios[i])
+            x = program.descend(
+                x, max_evaluations=options.max_evaluations, tolerance=options.finish_tolerance
+            )
+        x = program.polish(x, rounds=options.finish_rounds, tolerance=options.finish_tolerance)
+        weights[:] = kept
+        return min(self._measure(x), result, key=lambda r: _merit(r, options))
 
     def _polished(self, result: Result) -> Result:
         """Descend once more without the price of ease and distance, if a small miss may be that."""
@@ -232,15 +265,11 @@ class _Attempt:
         """Return where a descent from a start ends."""
         options = self.body.options
         program = self.program
-        found = minimise(
-            program,
-            start,
-            program.lower,
-            program.upper,
-            max_evaluations=options.max_evaluations,
-            tolerance=options.descent_tolerance,
+        x = program.descend(
+            start, max_evaluations=options.max_evaluations, tolerance=options.descent_tolerance
         )
-        return self._measure(found.x)
+        x = program.polish(x, rounds=options.polish_rounds, tolerance=options.polish_tolerance)
+        return self._measure(x)
 
     def _measure(self, x: Array) -> Result:
         self.program(x, np.empty(0))

@@ -1,4 +1,4 @@
-"""The objective of one inverse-kinematics problem and its gradient, compiled.
+"""The objective of one inverse-kinematics problem, its gradient and its polish, compiled.
 
     f(x) = Σ_k w_k e_k²  +  Σ_v λ_v (q_v − ref_v)²  +  Σ_v κ_v max(0, |u_v| − 0.8)²  +  μ Σ overlap²
 
@@ -8,48 +8,53 @@ perpendiculars. The gradient costs one backward sweep: every pull on a point or 
 force and a moment about the world's origin on its node, both are added up towards the root, and a
 coordinate that turns about axis u through o feels u · (M − o × F).
 
-All that a problem is lies in two flat arrays, one of integers and one of reals, which `program`
-lays out: four arguments cost a microsecond to hand over where forty cost ten, and the same
-arrays can be handed to a C callback. The first entries of `ints` say where each section starts.
-Fast-math is off: the same bytes on every run. Signatures are given, so that compiling happens
-once, when this module is first imported, and the result is kept on disk.
+`evaluate` is what NLopt calls, through its C interface or through Python: the same machine code.
+All that a problem is lies in one block of eight-byte words that `program` lays out, read as
+integers or as reals; the first words say where each section starts. Fast-math is off: the same
+bytes on every run. Nothing here allocates. Signatures are given, so that compiling happens once,
+when this module is first imported, and the result is kept on disk.
+
+The file is longer than others because numba keeps compiled code for as long as the file that
+names it stays the same: all that goes into one entry must stand in one file.
 """
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
+import numba
 import numpy as np
-from numba import njit, types
-from numpy.typing import NDArray
+from numba import cfunc, njit
 
-Reals = NDArray[np.float64]
-Ints = NDArray[np.int64]
+carray: Any = numba.carray
+types: Any = numba.types
 
-# Operations of a tape; its table is in `tape`. They stand here, as all that compiled code is made
-# of, because the kept result is made anew only when this file changes.
+# Operations of a tape; its table is in `tape`.
 CONSTANT, POINT, VECTOR, COMBINE, UNIT, CROSS, TURN = range(7)
 
 # Kinds of residual.
 MEET, AT_DISTANCE, PERPENDICULAR = range(3)
 
-# Sections of `ints`.
+# Sections of integers, then of reals; word s of a block says where section s starts. What is
+# needed only while working stands last and is never set up.
 (
+    SIZE,
+    COUNT,
+    ROUNDS,
     PARENTS,
     DOF_START,
     DOF_AXIS,
     DOF_COORDINATE,
     ACTIVE,
     FREE,
+    COLUMN,
     CODES,
     ROWS,
     CAPSULE_NODE,
     PAIRS,
-    INTS_END,
-) = range(11)
-
-# Sections of `reals`; their starts stand in `ints` after those of the integers.
-(
+    BALL_NODE,
+    RUNS,
     Q,
     OFFSETS,
     ZERO,
@@ -58,47 +63,69 @@ MEET, AT_DISTANCE, PERPENDICULAR = range(3)
     ROW_NUMBERS,
     CAPSULE_ENDS,
     PAIR_REACH,
+    BALLS,
+    RUN_REACH,
     POSTURE,
+    BOUNDS,
     OVERLAP_WEIGHT,
+    TOLERANCE,
     POSITIONS,
     ROTATIONS,
     AXES,
+    DEEPEST,
+    BEST,
     FORCES,
     MOMENTS,
     VALUES,
     PULLS,
     ENDS,
-    DEEPEST,
+    CENTRES,
+    CONTACTS,
     PULL_ON_Q,
-    REALS_END,
-) = range(11, 32)
+    SLOPES,
+    HESSIAN,
+    FACTOR,
+    VECTORS,
+    SECTIONS_END,
+) = range(48)
 
 COMFORTABLE = 0.8
 """Part of a coordinate's range, about its middle, that costs nothing."""
 
 SHORT = 1e-12
 
+FIRST_DAMPING, MOST_DAMPING = 1e-3, 1e6
+"""Of Gauss-Newton steps: at first, and where they are given up."""
 
-@njit
+UNDEFINED = 1e300
+"""Stands for NaN, so that a line search backs off."""
+
+
+@njit(error_model="numpy")
 def _part(array, ints, section):  # type: ignore[no-untyped-def]
     return array[ints[section] : ints[section + 1]]
 
 
-@njit
-def _forward(  # type: ignore[no-untyped-def]
-    q, active, parents, offsets, zero, start, axis, scale, coordinate, positions, rotations, axes
-):
-    """Frames of the active nodes; those of all others stand in the arrays already."""
-    M = np.empty((3, 3))
+@njit(error_model="numpy")
+def _forward(q, ints, reals):  # type: ignore[no-untyped-def]
+    """Frames of the active nodes; those of all others stand in the block already."""
+    active, parents = _part(ints, ints, ACTIVE), _part(ints, ints, PARENTS)
+    start, axis = _part(ints, ints, DOF_START), _part(ints, ints, DOF_AXIS)
+    coordinate, scale = _part(ints, ints, DOF_COORDINATE), _part(reals, ints, DOF_SCALE)
+    count = parents.shape[0]
+    offsets = _part(reals, ints, OFFSETS).reshape((count, 3))
+    zero = _part(reals, ints, ZERO).reshape((count, 3, 3))
+    positions = _part(reals, ints, POSITIONS).reshape((count, 3))
+    rotations = _part(reals, ints, ROTATIONS).reshape((count, 3, 3))
+    axes = _part(reals, ints, AXES).reshape((axis.shape[0], 3))
     for node in active:
         p = parents[node]
-        if p < 0:
-            for i in range(3):
+        for i in range(3):
+            if p < 0:
                 positions[node, i] = offsets[node, i]
                 for j in range(3):
-                    M[i, j] = zero[node, i, j]
-        else:
-            for i in range(3):
+                    rotations[node, i, j] = zero[node, i, j]
+            else:
                 a, b, c = rotations[p, i, 0], rotations[p, i, 1], rotations[p, i, 2]
                 positions[node, i] = (
                     positions[p, i]
@@ -107,22 +134,21 @@ def _forward(  # type: ignore[no-untyped-def]
                     + c * offsets[node, 2]
                 )
                 for j in range(3):
-                    M[i, j] = a * zero[node, 0, j] + b * zero[node, 1, j] + c * zero[node, 2, j]
+                    rotations[node, i, j] = (
+                        a * zero[node, 0, j] + b * zero[node, 1, j] + c * zero[node, 2, j]
+                    )
         for d in range(start[node], start[node + 1]):
             angle = scale[d] * q[coordinate[d]]
             cos, sin = math.cos(angle), math.sin(angle)
             j, k = (axis[d] + 1) % 3, (axis[d] + 2) % 3
             for i in range(3):
-                axes[d, i] = M[i, axis[d]]
-                u, w = M[i, j], M[i, k]
-                M[i, j] = cos * u + sin * w
-                M[i, k] = cos * w - sin * u
-        for i in range(3):
-            for j in range(3):
-                rotations[node, i, j] = M[i, j]
+                axes[d, i] = rotations[node, i, axis[d]]
+                u, w = rotations[node, i, j], rotations[node, i, k]
+                rotations[node, i, j] = cos * u + sin * w
+                rotations[node, i, k] = cos * w - sin * u
 
 
-@njit
+@njit(error_model="numpy")
 def _play(codes, numbers, positions, rotations, values):  # type: ignore[no-untyped-def]
     """Values of the tape's entries; see the table in `tape`."""
     for t in range(codes.shape[0]):
@@ -165,7 +191,7 @@ def _play(codes, numbers, positions, rotations, values):  # type: ignore[no-unty
                 )
 
 
-@njit
+@njit(error_model="numpy")
 def _rewind(codes, numbers, values, pulls, forces, moments):  # type: ignore[no-untyped-def]
     """Carry ∂f / ∂entry back to the nodes, as forces and moments about the world's origin."""
     for t in range(codes.shape[0] - 1, -1, -1):
@@ -213,7 +239,7 @@ def _rewind(codes, numbers, values, pulls, forces, moments):  # type: ignore[no-
                 ) * (along * pulls[t, i] + back * values[a, i])
 
 
-@njit
+@njit(error_model="numpy")
 def _compare(rows, row_numbers, values, pulls):  # type: ignore[no-untyped-def]
     """Sum of w e² over the residuals, and its pulls on the entries they compare."""
     f = 0.0
@@ -247,7 +273,7 @@ def _compare(rows, row_numbers, values, pulls):  # type: ignore[no-untyped-def]
     return f
 
 
-@njit
+@njit(error_model="numpy")
 def _nearest(ends, i, j):  # type: ignore[no-untyped-def]
     """Parameters of the nearest points of two capsules' axes (Ericson 2005, §5.1.9)."""
     a, b, c, d, e = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -273,73 +299,107 @@ def _nearest(ends, i, j):  # type: ignore[no-untyped-def]
     return s, t
 
 
-@njit
-def _collide(  # type: ignore[no-untyped-def]
-    weight, nodes, local, pairs, reach, positions, rotations, ends, deepest, forces, moments
-):
-    """Sum of μ overlap² over the pairs of capsules, the deepest, and its forces on their nodes."""
+@njit(error_model="numpy")
+def _spread(balls, nodes, positions, rotations, centres):  # type: ignore[no-untyped-def]
+    """Where points of nodes' frames lie, some reals per row, of which the first three are one."""
     for c in range(nodes.shape[0]):
         node = nodes[c]
         for i in range(3):
-            for end in range(2):
-                ends[c, 3 * end + i] = (
-                    positions[node, i]
-                    + rotations[node, i, 0] * local[c, 3 * end]
-                    + rotations[node, i, 1] * local[c, 3 * end + 1]
-                    + rotations[node, i, 2] * local[c, 3 * end + 2]
-                )
-    f = 0.0
-    deepest[0] = 0.0
-    gap = np.empty(3)
-    for n in range(pairs.shape[0]):
-        i, j = pairs[n, 0], pairs[n, 1]
-        # A box around both axes that is wide enough to miss nothing.
-        apart = False
-        for k in range(3):
-            low_i, high_i = min(ends[i, k], ends[i, 3 + k]), max(ends[i, k], ends[i, 3 + k])
-            low_j, high_j = min(ends[j, k], ends[j, 3 + k]), max(ends[j, k], ends[j, 3 + k])
-            if low_i - high_j > reach[n] or low_j - high_i > reach[n]:
-                apart = True
-        if apart:
-            continue
-        s, t = _nearest(ends, i, j)
-        square = 0.0
-        for k in range(3):
-            gap[k] = (
-                ends[i, k]
-                + s * (ends[i, 3 + k] - ends[i, k])
-                - ends[j, k]
-                - t * (ends[j, 3 + k] - ends[j, k])
+            centres[c, i] = (
+                positions[node, i]
+                + rotations[node, i, 0] * balls[c, 0]
+                + rotations[node, i, 1] * balls[c, 1]
+                + rotations[node, i, 2] * balls[c, 2]
             )
-            square += gap[k] * gap[k]
-        distance = math.sqrt(square)
-        overlap = reach[n] - distance
-        if overlap <= 0.0:
-            continue
-        f += weight * overlap * overlap
-        deepest[0] = max(deepest[0], overlap)
-        if distance <= SHORT:
-            continue
-        factor = -2.0 * weight * overlap / distance
+
+
+@njit(error_model="numpy")
+def _touch(ints, reals, positions, rotations):  # type: ignore[no-untyped-def]
+    """Find the pairs of capsules that overlap; return how many, and the sum of overlap².
+
+    Contacts are rows of: one capsule's node, the nearest point of its axis, the other's, the
+    unit vector from the second to the first, and the overlap.
+    """
+    nodes = _part(ints, ints, CAPSULE_NODE)
+    local = _part(reals, ints, CAPSULE_ENDS).reshape((nodes.shape[0], 6))
+    ends = _part(reals, ints, ENDS).reshape((nodes.shape[0], 6))
+    _spread(local, nodes, positions, rotations, ends)
+    _spread(local[:, 3:], nodes, positions, rotations, ends[:, 3:])
+    ball_nodes = _part(ints, ints, BALL_NODE)
+    centres = _part(reals, ints, CENTRES).reshape((ball_nodes.shape[0], 3))
+    _spread(
+        _part(reals, ints, BALLS).reshape((ball_nodes.shape[0], 3)),
+        ball_nodes,
+        positions,
+        rotations,
+        centres,
+    )
+    runs = _part(ints, ints, RUNS).reshape(((ints[RUNS + 1] - ints[RUNS]) // 4, 4))
+    pairs = _part(ints, ints, PAIRS).reshape(((ints[PAIRS + 1] - ints[PAIRS]) // 2, 2))
+    run_reach, reach = _part(reals, ints, RUN_REACH), _part(reals, ints, PAIR_REACH)
+    contacts = _part(reals, ints, CONTACTS).reshape((pairs.shape[0], 12))
+    deepest, total, found = 0.0, 0.0, 0
+    for run in range(runs.shape[0]):
+        one, other = runs[run, 0], runs[run, 1]
+        if one != other:
+            away = 0.0
+            for k in range(3):
+                away += (centres[one, k] - centres[other, k]) ** 2
+            if away > run_reach[run] * run_reach[run]:
+                continue
+        for n in range(runs[run, 2], runs[run, 3]):
+            i, j = pairs[n, 0], pairs[n, 1]
+            # A box around both axes that is wide enough to miss nothing.
+            apart = False
+            for k in range(3):
+                low_i, high_i = min(ends[i, k], ends[i, 3 + k]), max(ends[i, k], ends[i, 3 + k])
+                low_j, high_j = min(ends[j, k], ends[j, 3 + k]), max(ends[j, k], ends[j, 3 + k])
+                if low_i - high_j > reach[n] or low_j - high_i > reach[n]:
+                    apart = True
+            if apart:
+                continue
+            s, t = _nearest(ends, i, j)
+            contact = contacts[found]
+            square = 0.0
+            for k in range(3):
+                contact[2 + k] = ends[i, k] + s * (ends[i, 3 + k] - ends[i, k])
+                contact[5 + k] = ends[j, k] + t * (ends[j, 3 + k] - ends[j, k])
+                square += (contact[2 + k] - contact[5 + k]) ** 2
+            distance = math.sqrt(square)
+            overlap = reach[n] - distance
+            if overlap <= 0.0:
+                continue
+            total += overlap * overlap
+            deepest = max(deepest, overlap)
+            if distance <= SHORT:
+                continue
+            contact[0], contact[1], contact[11] = nodes[i], nodes[j], overlap
+            for k in range(3):
+                contact[8 + k] = (contact[2 + k] - contact[5 + k]) / distance
+            found += 1
+    reals[ints[DEEPEST]] = deepest
+    return found, total
+
+
+@njit(error_model="numpy")
+def _press(contacts, count, weight, forces, moments):  # type: ignore[no-untyped-def]
+    """Push nodes of capsules that overlap apart, with forces and moments."""
+    for n in range(count):
+        contact = contacts[n]
         for side in range(2):
-            c = i if side == 0 else j
-            r = s if side == 0 else t
-            sign = factor if side == 0 else -factor
-            node = nodes[c]
-            px = ends[c, 0] + r * (ends[c, 3] - ends[c, 0])
-            py = ends[c, 1] + r * (ends[c, 4] - ends[c, 1])
-            pz = ends[c, 2] + r * (ends[c, 5] - ends[c, 2])
-            fx, fy, fz = sign * gap[0], sign * gap[1], sign * gap[2]
+            factor = -2.0 * weight * contact[11] if side == 0 else 2.0 * weight * contact[11]
+            node = int(contact[side])
+            px, py, pz = contact[2 + 3 * side], contact[3 + 3 * side], contact[4 + 3 * side]
+            fx, fy, fz = factor * contact[8], factor * contact[9], factor * contact[10]
             forces[node, 0] += fx
             forces[node, 1] += fy
             forces[node, 2] += fz
             moments[node, 0] += py * fz - pz * fy
             moments[node, 1] += pz * fx - px * fz
             moments[node, 2] += px * fy - py * fx
-    return f
 
 
-@njit
+@njit(error_model="numpy")
 def _gather(  # type: ignore[no-untyped-def]
     active, parents, start, scale, coordinate, positions, axes, forces, moments, pull_on_q
 ):
@@ -360,46 +420,26 @@ def _gather(  # type: ignore[no-untyped-def]
                 moments[p, i] += M[i]
 
 
-@njit(
-    types.float64(
-        types.Array(types.float64, 1, "C", readonly=True),
-        types.Array(types.float64, 1, "C"),
-        types.Array(types.int64, 1, "C"),
-        types.Array(types.float64, 1, "C"),
-    ),
-    cache=True,
-)
-def objective(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
-    """Return f at the free coordinates x (n,); its gradient goes into `gradient` (n,) or (0,)."""
+@njit(error_model="numpy")
+def _value(x, gradient, wanted, ints, reals):  # type: ignore[no-untyped-def]
+    """Work out f at the free coordinates x (n,), its gradient too if wanted; count contacts."""
     q = _part(reals, ints, Q)
     free, active = _part(ints, ints, FREE), _part(ints, ints, ACTIVE)
-    parents, start = _part(ints, ints, PARENTS), _part(ints, ints, DOF_START)
-    axis, coordinate = _part(ints, ints, DOF_AXIS), _part(ints, ints, DOF_COORDINATE)
-    scale = _part(reals, ints, DOF_SCALE)
+    parents = _part(ints, ints, PARENTS)
     count, entries = parents.shape[0], (ints[CODES + 1] - ints[CODES]) // 4
     positions = _part(reals, ints, POSITIONS).reshape((count, 3))
     rotations = _part(reals, ints, ROTATIONS).reshape((count, 3, 3))
-    axes = _part(reals, ints, AXES).reshape((axis.shape[0], 3))
-    forces = _part(reals, ints, FORCES).reshape((count, 3))
-    moments = _part(reals, ints, MOMENTS).reshape((count, 3))
     codes = _part(ints, ints, CODES).reshape((entries, 4))
     numbers = _part(reals, ints, NUMBERS).reshape((entries, 5))
     values = _part(reals, ints, VALUES).reshape((entries, 3))
     pulls = _part(reals, ints, PULLS).reshape((entries, 3))
+    ints[ints[COUNT]] += 1
 
     for k in range(free.shape[0]):
         q[free[k]] = x[k]
-    offsets = _part(reals, ints, OFFSETS).reshape((count, 3))
-    zero = _part(reals, ints, ZERO).reshape((count, 3, 3))
-    _forward(
-        q, active, parents, offsets, zero, start, axis, scale, coordinate, positions, rotations,
-        axes,
-    )  # fmt: skip
+    _forward(q, ints, reals)
     _play(codes, numbers, positions, rotations, values)
-
     pulls[:] = 0.0
-    forces[:] = 0.0
-    moments[:] = 0.0
     residuals = (ints[ROWS + 1] - ints[ROWS]) // 3
     f = _compare(
         _part(ints, ints, ROWS).reshape((residuals, 3)),
@@ -407,33 +447,357 @@ def objective(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
         values,
         pulls,
     )
-    _rewind(codes, numbers, values, pulls, forces, moments)
-    nodes = _part(ints, ints, CAPSULE_NODE)
-    collisions = (ints[PAIRS + 1] - ints[PAIRS]) // 2
-    f += _collide(
-        reals[ints[OVERLAP_WEIGHT]],
-        nodes,
-        _part(reals, ints, CAPSULE_ENDS).reshape((nodes.shape[0], 6)),
-        _part(ints, ints, PAIRS).reshape((collisions, 2)),
-        _part(reals, ints, PAIR_REACH),
-        positions,
-        rotations,
-        _part(reals, ints, ENDS).reshape((nodes.shape[0], 6)),
-        _part(reals, ints, DEEPEST),
-        forces,
-        moments,
-    )
+    weight = reals[ints[OVERLAP_WEIGHT]]
+    contacts, overlaps = _touch(ints, reals, positions, rotations)
+    f += weight * overlaps
+
     pull_on_q = _part(reals, ints, PULL_ON_Q)
-    pull_on_q[:] = 0.0
-    _gather(active, parents, start, scale, coordinate, positions, axes, forces, moments, pull_on_q)
+    if wanted:
+        forces = _part(reals, ints, FORCES).reshape((count, 3))
+        moments = _part(reals, ints, MOMENTS).reshape((count, 3))
+        forces[:] = 0.0
+        moments[:] = 0.0
+        pull_on_q[:] = 0.0
+        _rewind(codes, numbers, values, pulls, forces, moments)
+        touching = _part(reals, ints, CONTACTS)
+        _press(touching.reshape((touching.shape[0] // 12, 12)), contacts, weight, forces, moments)
+        _gather(
+            active,
+            parents,
+            _part(ints, ints, DOF_START),
+            _part(reals, ints, DOF_SCALE),
+            _part(ints, ints, DOF_COORDINATE),
+            positions,
+            _part(reals, ints, AXES).reshape(((ints[AXES + 1] - ints[AXES]) // 3, 3)),
+            forces,
+            moments,
+            pull_on_q,
+        )
 
     posture = _part(reals, ints, POSTURE).reshape((free.shape[0], 5))
     for k in range(free.shape[0]):
         reference, keep, middle, half, comfort = posture[k]
         away = x[k] - reference
-        u = (x[k] - middle) / half
-        beyond = u - COMFORTABLE if u > COMFORTABLE else min(u + COMFORTABLE, 0.0)
+        beyond = _beyond((x[k] - middle) / half)
         f += keep * away * away + comfort * beyond * beyond
-        if gradient.shape[0] > 0:
+        if wanted:
             gradient[k] = pull_on_q[free[k]] + 2.0 * keep * away + 2.0 * comfort * beyond / half
-    return f
+    return f, contacts
+
+
+@njit(error_model="numpy")
+def _beyond(u):  # type: ignore[no-untyped-def]
+    return u - COMFORTABLE if u > COMFORTABLE else min(u + COMFORTABLE, 0.0)
+
+
+# Polishing: damped Gauss-Newton steps inside the bounds -----------------------------------------
+
+
+@njit(error_model="numpy")
+def _lever(node, point, direction, factor, row, ints, reals):  # type: ignore[no-untyped-def]
+    """Add to a row (n,) what coordinates do to a point of a node, along a direction."""
+    parents, start = _part(ints, ints, PARENTS), _part(ints, ints, DOF_START)
+    coordinate, scale = _part(ints, ints, DOF_COORDINATE), _part(reals, ints, DOF_SCALE)
+    column, positions = _part(ints, ints, COLUMN), _part(reals, ints, POSITIONS)
+    axes = _part(reals, ints, AXES)
+    while node >= 0:
+        ax = point[0] - positions[3 * node]
+        ay = point[1] - positions[3 * node + 1]
+        az = point[2] - positions[3 * node + 2]
+        mx = factor * (ay * direction[2] - az * direction[1])
+        my = factor * (az * direction[0] - ax * direction[2])
+        mz = factor * (ax * direction[1] - ay * direction[0])
+        for d in range(start[node], start[node + 1]):
+            k = column[coordinate[d]]
+            if k >= 0:
+                row[k] += scale[d] * (
+                    axes[3 * d] * mx + axes[3 * d + 1] * my + axes[3 * d + 2] * mz
+                )
+        node = parents[node]
+
+
+@njit(error_model="numpy")
+def _turned(node, value, is_point, slope, ints, reals):  # type: ignore[no-untyped-def]
+    """Slopes (3, n) of a point or direction that a node carries: axis × arm for each coordinate."""
+    parents, start = _part(ints, ints, PARENTS), _part(ints, ints, DOF_START)
+    coordinate, scale = _part(ints, ints, DOF_COORDINATE), _part(reals, ints, DOF_SCALE)
+    column, positions = _part(ints, ints, COLUMN), _part(reals, ints, POSITIONS)
+    axes = _part(reals, ints, AXES)
+    ax, ay, az = value[0], value[1], value[2]
+    while node >= 0:
+        if is_point:
+            ax = value[0] - positions[3 * node]
+            ay = value[1] - positions[3 * node + 1]
+            az = value[2] - positions[3 * node + 2]
+        for d in range(start[node], start[node + 1]):
+            k = column[coordinate[d]]
+            if k >= 0:
+                ux, uy, uz = axes[3 * d], axes[3 * d + 1], axes[3 * d + 2]
+                slope[0, k] += scale[d] * (uy * az - uz * ay)
+                slope[1, k] += scale[d] * (uz * ax - ux * az)
+                slope[2, k] += scale[d] * (ux * ay - uy * ax)
+        node = parents[node]
+
+
+@njit(error_model="numpy")
+def _add(slopes, t, i, factor, a, j):  # type: ignore[no-untyped-def]
+    for v in range(slopes.shape[2]):
+        slopes[t, i, v] += factor * slopes[a, j, v]
+
+
+@njit(error_model="numpy")
+def _slopes(codes, numbers, values, slopes, ints, reals):  # type: ignore[no-untyped-def]
+    """Work out derivatives (entries, 3, n) of the tape's entries by the free coordinates."""
+    slopes[:] = 0.0
+    for t in range(codes.shape[0]):
+        code, a, b, node = codes[t, 0], codes[t, 1], codes[t, 2], codes[t, 3]
+        if code in (POINT, VECTOR):
+            _turned(node, values[t], code == POINT, slopes[t], ints, reals)
+        elif code == COMBINE:
+            for i in range(3):
+                _add(slopes, t, i, numbers[t, 3], a, i)
+                if b >= 0:
+                    _add(slopes, t, i, numbers[t, 4], b, i)
+        elif code == UNIT:
+            length = math.sqrt(values[a, 0] ** 2 + values[a, 1] ** 2 + values[a, 2] ** 2)
+            if length > SHORT:
+                for i in range(3):
+                    for k in range(3):
+                        same = 1.0 if i == k else 0.0
+                        _add(slopes, t, i, (same - values[t, i] * values[t, k]) / length, a, k)
+        elif code == CROSS:
+            for i in range(3):
+                j, k = (i + 1) % 3, (i + 2) % 3
+                _add(slopes, t, i, values[b, k], a, j)
+                _add(slopes, t, i, -values[b, j], a, k)
+                _add(slopes, t, i, values[a, j], b, k)
+                _add(slopes, t, i, -values[a, k], b, j)
+        elif code == TURN:
+            cos, sin = numbers[t, 3], numbers[t, 4]
+            along = 0.0
+            for i in range(3):
+                along += values[b, i] * values[a, i]
+            for i in range(3):
+                j, k = (i + 1) % 3, (i + 2) % 3
+                _add(slopes, t, i, cos, a, i)
+                _add(slopes, t, i, (1.0 - cos) * along, b, i)
+                _add(slopes, t, i, sin * values[b, j], a, k)
+                _add(slopes, t, i, -sin * values[b, k], a, j)
+                _add(slopes, t, i, sin * values[a, k], b, j)
+                _add(slopes, t, i, -sin * values[a, j], b, k)
+                for m in range(3):
+                    _add(slopes, t, i, (1.0 - cos) * values[b, i] * values[b, m], a, m)
+                    _add(slopes, t, i, (1.0 - cos) * values[b, i] * values[a, m], b, m)
+
+
+@njit(error_model="numpy")
+def _add_square(row, error, weight, hessian, gradient):  # type: ignore[no-untyped-def]
+    """Add w e² with slope `row` to the quadratic model; of the matrix only the upper triangle."""
+    for i in range(row.shape[0]):
+        if row[i] != 0.0:
+            c = weight * row[i]
+            gradient[i] += c * error
+            for j in range(i, row.shape[0]):
+                hessian[i, j] += c * row[j]
+
+
+@njit(error_model="numpy")
+def _model(x, contacts, row, gradient, hessian, ints, reals):  # type: ignore[no-untyped-def]
+    """Gauss-Newton model of f / 2 about the point that was evaluated last."""
+    n, entries = x.shape[0], (ints[CODES + 1] - ints[CODES]) // 4
+    codes = _part(ints, ints, CODES).reshape((entries, 4))
+    numbers = _part(reals, ints, NUMBERS).reshape((entries, 5))
+    values = _part(reals, ints, VALUES).reshape((entries, 3))
+    slopes = _part(reals, ints, SLOPES).reshape((entries, 3, n))
+    _slopes(codes, numbers, values, slopes, ints, reals)
+    gradient[:] = 0.0
+    hessian[:] = 0.0
+    rows, row_numbers = _part(ints, ints, ROWS), _part(reals, ints, ROW_NUMBERS)
+    for r in range(rows.shape[0] // 3):
+        kind, a, b = rows[3 * r], rows[3 * r + 1], rows[3 * r + 2]
+        weight = row_numbers[2 * r]
+        if kind == MEET:
+            for i in range(3):
+                for v in range(n):
+                    row[v] = slopes[a, i, v] - slopes[b, i, v]
+                _add_square(row, values[a, i] - values[b, i], weight, hessian, gradient)
+            continue
+        row[:] = 0.0
+        error = 0.0
+        if kind == PERPENDICULAR:
+            for i in range(3):
+                error += values[a, i] * values[b, i]
+                for v in range(n):
+                    row[v] += values[b, i] * slopes[a, i, v] + values[a, i] * slopes[b, i, v]
+        else:
+            square = 0.0
+            for i in range(3):
+                square += (values[a, i] - values[b, i]) ** 2
+            gap = math.sqrt(square)
+            error = gap - row_numbers[2 * r + 1]
+            if gap > SHORT:
+                for i in range(3):
+                    share = (values[a, i] - values[b, i]) / gap
+                    for v in range(n):
+                        row[v] += share * (slopes[a, i, v] - slopes[b, i, v])
+        _add_square(row, error, weight, hessian, gradient)
+    touching = _part(reals, ints, CONTACTS)
+    overlap_weight = reals[ints[OVERLAP_WEIGHT]]
+    for c in range(contacts):
+        contact = touching[12 * c : 12 * c + 12]
+        row[:] = 0.0
+        _lever(int(contact[0]), contact[2:5], contact[8:11], -1.0, row, ints, reals)
+        _lever(int(contact[1]), contact[5:8], contact[8:11], 1.0, row, ints, reals)
+        _add_square(row, contact[11], overlap_weight, hessian, gradient)
+    posture = _part(reals, ints, POSTURE)
+    for k in range(n):
+        reference, keep = posture[5 * k], posture[5 * k + 1]
+        middle, half, comfort = posture[5 * k + 2], posture[5 * k + 3], posture[5 * k + 4]
+        beyond = _beyond((x[k] - middle) / half)
+        gradient[k] += keep * (x[k] - reference) + comfort * beyond / half
+        hessian[k, k] += keep + (comfort / half**2 if beyond != 0.0 else 0.0)
+
+
+@njit(error_model="numpy")
+def _newton_step(free, count, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
+    """Solve (H + damping · diag H) p = −g for some coordinates; `step` holds the others' moves."""
+    n = gradient.shape[0]
+    for r in range(count):
+        i = free[r]
+        rhs = -gradient[i]
+        for j in range(n):
+            if step[j] != 0.0:
+                rhs -= (hessian[i, j] if j >= i else hessian[j, i]) * step[j]
+        factor[r, count] = rhs
+        for c in range(r, count):
+            factor[r, c] = hessian[i, free[c]]
+        factor[r, r] += damping * factor[r, r] + 1e-12
+    for r in range(count):
+        pivot = math.sqrt(max(factor[r, r], 1e-300))
+        for c in range(r, count + 1):
+            factor[r, c] /= pivot
+        for i in range(r + 1, count):
+            share = factor[r, i]
+            if share != 0.0:
+                for c in range(i, count + 1):
+                    factor[i, c] -= share * factor[r, c]
+    for r in range(count - 1, -1, -1):
+        solved = factor[r, count]
+        for c in range(r + 1, count):
+            solved -= factor[r, c] * step[free[c]]
+        step[free[r]] = solved / factor[r, r]
+
+
+@njit(error_model="numpy")
+def _bounded_step(x, bounds, free, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
+    """Step towards the model's least value inside the bounds, by an active set; what it gains."""
+    lower, upper = bounds[0], bounds[1]
+    count = 0
+    for k in range(x.shape[0]):
+        step[k] = 0.0
+        stuck = (x[k] <= lower[k] and gradient[k] >= 0.0) or (
+            x[k] >= upper[k] and gradient[k] <= 0.0
+        )
+        if not stuck:
+            free[count] = k
+            count += 1
+    while count > 0:
+        for r in range(count):
+            step[free[r]] = 0.0
+        _newton_step(free, count, damping, gradient, hessian, factor, step)
+        left = 0
+        for r in range(count):
+            k = free[r]
+            if x[k] + step[k] < lower[k]:
+                step[k] = lower[k] - x[k]
+            elif x[k] + step[k] > upper[k]:
+                step[k] = upper[k] - x[k]
+            else:
+                free[left] = k
+                left += 1
+        if left == count:
+            break
+        count = left
+    foreseen = 0.0
+    for i in range(x.shape[0]):
+        if step[i] != 0.0:
+            bent = 0.5 * hessian[i, i] * step[i]
+            for j in range(i + 1, x.shape[0]):
+                bent += hessian[i, j] * step[j]
+            foreseen -= 2.0 * step[i] * (gradient[i] + bent)
+    return foreseen
+
+
+@njit(error_model="numpy")
+def _improve(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
+    """Polish x (n,) for the block's number of rounds; return f, with its gradient if that is 0."""
+    n = x.shape[0]
+    hessian = _part(reals, ints, HESSIAN).reshape((n, n))
+    factor = _part(reals, ints, FACTOR).reshape((n, n + 1))
+    vectors = _part(reals, ints, VECTORS)[: 4 * n].reshape((4, n))
+    row, model, step, trial = vectors[0], vectors[1], vectors[2], vectors[3]
+    free = ints[ints[VECTORS] + 4 * n : ints[VECTORS] + 5 * n]
+    bounds = _part(reals, ints, BOUNDS).reshape((2, n))
+    rounds, tolerance = ints[ints[ROUNDS]], reals[ints[TOLERANCE]]
+    damping, growth, foreseen, value = FIRST_DAMPING, 2.0, 0.0, np.inf
+    for k in range(n):
+        trial[k] = x[k]
+    while True:
+        other, contacts = _value(trial, gradient, rounds == 0, ints, reals)
+        gain = value - other
+        done = rounds <= 0
+        if gain > 0.0:
+            done = done or gain <= tolerance * other
+            value = other
+            for k in range(n):
+                x[k] = trial[k]
+            if foreseen > 0.0:
+                damping *= max(1.0 / 3.0, 1.0 - (2.0 * gain / foreseen - 1.0) ** 3)
+                growth = 2.0
+            if not done:
+                _model(x, contacts, row, model, hessian, ints, reals)
+        else:
+            damping *= growth
+            growth *= 2.0
+        if done or damping > MOST_DAMPING:
+            return value
+        rounds -= 1
+        foreseen = _bounded_step(x, bounds, free, damping, model, hessian, factor, step)
+        for k in range(n):
+            trial[k] = min(max(x[k] + step[k], bounds[0, k]), bounds[1, k])
+
+
+@cfunc(
+    types.float64(
+        types.uint32, types.CPointer(types.float64), types.CPointer(types.float64), types.voidptr
+    ),
+    cache=True,
+    error_model="numpy",
+)
+def evaluate(count, place, slope, block):  # type: ignore[no-untyped-def]
+    """Return f at x (n,) and write its gradient (n,): NLopt's `nlopt_func`.
+
+    The lowest point so far is kept in the block: a method that gives up loses it. Where f is
+    undefined a huge value without slope makes a line search step back.
+
+    With rounds in the block x is first polished in place, never to a higher value, by damped
+    Gauss-Newton steps inside the bounds (Levenberg 1944, Marquardt 1963; damped as by Nielsen
+    1999): every term of f is a square, so that its model needs first derivatives only. A relative
+    gain below the block's tolerance ends it, or as many rounds. It is the same entry because
+    every entry is a copy of the whole objective, to be compiled once and loaded by every process.
+    """
+    n = np.int64(count)
+    size = carray(block, (1,), np.int64)[0]
+    ints, reals = carray(block, (size,), np.int64), carray(block, (size,), np.float64)
+    x, gradient = carray(place, (n,)), carray(slope, (n,))
+    value = _improve(x, gradient, ints, reals)
+    if not math.isfinite(value):
+        for k in range(n):
+            gradient[k] = 0.0
+        return UNDEFINED
+    best = _part(reals, ints, BEST)
+    if value < best[0]:
+        best[0] = value
+        for k in range(n):
+            best[1 + k] = x[k]
+    return value

@@ -15,11 +15,13 @@ class SolveOptions:
     tolerance: what counts as met. A miss by it costs 1 in the objective, beside which stand
     posture: per squared radian away from the reference, times the coordinate's squared stiffness;
     comfort: per squared part of a half range beyond 80 % of it; overlap: per squared metre that
-    two capsules overlap; overlap_m: what is tolerated of that. max_evaluations and
-    descent_tolerance end one descent. further_starts: of the Halton sequence. patience: so many
-    descents in a row that gain nothing end the search; twice as many if no wider problem can take
-    over. explain: find out why what misses misses, by
-    solving smaller problems. fixed: coordinates that must not move from the start.
+    two capsules overlap, 0 to let bodies pass through each other; overlap_m: what is tolerated
+    of that. max_evaluations and descent_tolerance end one descent of NLopt's, polish_rounds and
+    polish_tolerance the Gauss-Newton steps after it, finish_rounds and finish_tolerance those
+    that the best of all descents ends with. further_starts: of the Halton sequence. patience: so
+    many descents in a row that gain nothing end the search; twice as many if no wider problem can
+    take over. explain: find out why what misses misses, by solving smaller problems. fixed:
+    coordinates that must not move from the start.
     """
 
     tolerance: Tolerance = field(default_factory=lambda: Tolerance(1e-3, math.radians(0.5)))
@@ -28,7 +30,11 @@ class SolveOptions:
     overlap: float = 0.25e6
     overlap_m: float = 3e-3
     max_evaluations: int = 600
-    descent_tolerance: float = 1e-6
+    descent_tolerance: float = 1e-2
+    polish_rounds: int = 20
+    polish_tolerance: float = 1e-4
+    finish_rounds: int = 60
+    finish_tolerance: float = 1e-8
     further_starts: int = 6
     patience: int = 2
     explain: bool = True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -10,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver import kernels as k
+from azee_solver.broadphase import BroadPhase, broad_phase
+from azee_solver.nlopt_backend import Compiled, address, minimise, minimise_compiled
 from azee_solver.tape import Tape
 
 if TYPE_CHECKING:
@@ -17,6 +20,14 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+
+_POINTER = ctypes.c_void_p
+_EVALUATE = int(k.evaluate.address or 0)
+"""Where the compiled objective lies."""
+_evaluate = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_uint, _POINTER, _POINTER, _POINTER)(
+    _EVALUATE
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,10 +65,10 @@ class Cost:
 
 
 class Program:
-    """A problem in two flat arrays, and the objective that runs on them.
+    """A problem in one block of words, and the objective that runs on it.
 
-    ints, reals: see `kernels`. rows: as given, with indices into the tape's used entries. free:
-    (n,) coordinates that x stands for. lower, upper: (n,). evaluations: calls so far.
+    ints, reals: the block, read as either; see `kernels`. rows: as given, with indices into the
+    tape's used entries. free: (n,) coordinates that x stands for. lower, upper: (n,).
     """
 
     def __init__(
@@ -82,76 +93,126 @@ class Program:
         self.lower: Array = coordinates.lower[self.free]
         self.upper: Array = coordinates.upper[self.free]
         self.rows, codes, numbers = _used(tape, rows)
-        used = np.unique(collisions.pairs)
+        phase = broad_phase(rig, collisions.pairs, collisions.reach)
+        used = phase.capsules
         node = capsules.node[used]
-        ends = np.hstack([capsules.a[used], capsules.b[used]])
-        posture = np.stack(
-            [
-                cost.reference[self.free],
-                cost.keep[self.free],
-                0.5 * (self.lower + self.upper),
-                0.5 * (self.upper - self.lower),
-                cost.comfort[self.free],
-            ],
-            axis=1,
-        )
-        nodes, entries = len(chain.names), len(codes)
-        ints: dict[int, Ints] = {
+        posture = np.empty((len(self.free), 5))
+        posture[:, 0] = cost.reference[self.free]
+        posture[:, 1] = cost.keep[self.free]
+        posture[:, 2] = 0.5 * (self.lower + self.upper)
+        posture[:, 3] = 0.5 * (self.upper - self.lower)
+        posture[:, 4] = cost.comfort[self.free]
+        column = np.full(len(coordinates), -1)
+        column[self.free] = np.arange(len(self.free))
+        moving = tape.moving if all_frames else _needed(rig, tape.moving, codes, node, phase)
+        given: dict[int, Ints | Array] = {
+            k.COUNT: np.zeros(1, dtype=np.int64),
+            k.ROUNDS: np.zeros(1, dtype=np.int64),
             k.PARENTS: chain.parents,
             k.DOF_START: chain.dof_start,
             k.DOF_AXIS: chain.dof_axis,
             k.DOF_COORDINATE: chain.dof_coordinate,
-            k.ACTIVE: np.flatnonzero(
-                tape.moving if all_frames else _needed(rig, tape.moving, codes, node)
-            ),
+            k.ACTIVE: np.flatnonzero(moving),
             k.FREE: self.free,
+            k.COLUMN: column,
             k.CODES: codes,
             k.ROWS: np.array([(r.kind, r.a, r.b) for r in self.rows], dtype=np.int64),
             k.CAPSULE_NODE: node,
-            k.PAIRS: np.searchsorted(used, collisions.pairs),
-        }
-        reals: dict[int, Array] = {
+            k.PAIRS: phase.pairs,
+            k.BALL_NODE: phase.ball_node,
+            k.RUNS: phase.runs,
             k.Q: q,
             k.OFFSETS: chain.offsets,
             k.ZERO: chain.zero,
             k.DOF_SCALE: chain.dof_scale,
             k.NUMBERS: numbers,
             k.ROW_NUMBERS: np.array([(r.weight, r.distance_m) for r in self.rows]),
-            k.CAPSULE_ENDS: ends,
-            k.PAIR_REACH: collisions.reach,
+            k.CAPSULE_ENDS: np.hstack([capsules.a[used], capsules.b[used]]),
+            k.PAIR_REACH: phase.reach,
+            k.BALLS: phase.ball_centre,
+            k.RUN_REACH: phase.run_reach,
             k.POSTURE: posture,
+            k.BOUNDS: np.stack([self.lower, self.upper]),
             k.OVERLAP_WEIGHT: np.array([cost.overlap]),
+            k.TOLERANCE: np.zeros(1),
             k.POSITIONS: tape.frames.positions,
             k.ROTATIONS: tape.frames.rotations,
             k.AXES: np.zeros((len(chain.dof_axis), 3)),
-            k.FORCES: np.zeros((nodes, 3)),
-            k.MOMENTS: np.zeros((nodes, 3)),
-            k.VALUES: np.zeros((entries, 3)),
-            k.PULLS: np.zeros((entries, 3)),
-            k.ENDS: np.zeros_like(ends),
             k.DEEPEST: np.zeros(1),
-            k.PULL_ON_Q: np.zeros(len(coordinates)),
+            k.BEST: np.full(1 + len(self.free), np.inf),
         }
-        header = np.empty(k.REALS_END + 1, dtype=np.int64)
-        at = len(header)
-        for section in range(k.INTS_END):
+        n, entries, nodes = len(self.free), len(codes), len(chain.names)
+        worked_out = {
+            k.FORCES: 3 * nodes,
+            k.MOMENTS: 3 * nodes,
+            k.VALUES: 3 * entries,
+            k.PULLS: 3 * entries,
+            k.ENDS: 6 * len(used),
+            k.CENTRES: phase.ball_centre.size,
+            k.CONTACTS: 12 * len(phase.pairs),
+            k.PULL_ON_Q: len(coordinates),
+            k.SLOPES: 3 * entries * n,
+            k.HESSIAN: n * n,
+            k.FACTOR: n * (n + 1),
+            k.VECTORS: 5 * n,
+        }
+        at = k.SECTIONS_END + 1
+        header = [0] * at
+        for section in range(k.COUNT, k.SECTIONS_END):
             header[section] = at
-            at += ints[section].size
-        header[k.INTS_END] = at
-        starts = np.cumsum([0, *(reals[s].size for s in range(k.Q, k.REALS_END))])
-        header[k.Q : k.REALS_END + 1] = starts
-        self.ints: Ints = np.concatenate(
-            [header, *(np.ravel(ints[s]) for s in range(k.INTS_END))]
-        ).astype(np.int64)
-        self.reals: Array = np.concatenate(
-            [np.ravel(reals[s]) for s in range(k.Q, k.REALS_END)]
-        ).astype(np.float64)
-        self.evaluations = 0
+            at += worked_out[section] if section >= k.FORCES else given[section].size
+        header[k.SIZE], header[k.SECTIONS_END] = at, at
+        self.ints: Ints = np.empty(at, dtype=np.int64)
+        self.reals: Array = self.ints.view(np.float64)
+        self.ints[: len(header)] = header
+        for section, values in given.items():
+            block = self.ints if section < k.Q else self.reals
+            block[header[section] : header[section + 1]] = values.ravel()
+        self._spare = np.empty(n)
+        self.compiled = Compiled(
+            _EVALUATE,
+            address(self.ints),
+            np.ascontiguousarray(self.lower),
+            np.ascontiguousarray(self.upper),
+            self.section(k.BEST),
+        )
 
     def __call__(self, x: Array, gradient: Array) -> float:
         """Objective at x (n,); its gradient goes into `gradient`, unless that is empty."""
-        self.evaluations += 1
-        return float(k.objective(x, gradient, self.ints, self.reals))
+        at = np.ascontiguousarray(x, dtype=np.float64)
+        slope = gradient if len(gradient) else self._spare
+        return float(_evaluate(len(at), address(at), address(slope), self.compiled.block))
+
+    @property
+    def evaluations(self) -> int:
+        """How often the objective has been worked out so far."""
+        return int(self.ints[self.ints[k.COUNT]])
+
+    def descend(self, start: Array, *, max_evaluations: int, tolerance: float) -> Array:
+        """Return the lowest point (n,) that NLopt comes by from a start, inside the bounds."""
+        found = minimise_compiled(
+            self.compiled, start, max_evaluations=max_evaluations, tolerance=tolerance
+        ) or minimise(
+            self,
+            start,
+            self.lower,
+            self.upper,
+            max_evaluations=max_evaluations,
+            tolerance=tolerance,
+        )
+        return found.x
+
+    def polish(self, x: Array, *, rounds: int, tolerance: float) -> Array:
+        """Return where damped Gauss-Newton steps lead from a point (n,), inside the bounds.
+
+        Args: rounds: how many at most. tolerance: relative gain that ends it.
+        """
+        at = np.clip(x, self.lower, self.upper)
+        self.section(k.TOLERANCE)[0] = tolerance
+        self.ints[self.ints[k.ROUNDS]] = rounds
+        self(at, self._spare)
+        self.ints[self.ints[k.ROUNDS]] = 0
+        return at
 
     def section(self, section: int) -> Array:
         """Return a view of a section of the reals, flat."""
@@ -189,12 +250,15 @@ def _used(tape: Tape, rows: Sequence[Row]) -> tuple[list[Row], Ints, Array]:
     )
 
 
-def _needed(rig: Rig, moving: NDArray[np.bool_], codes: Ints, capsules: Ints) -> NDArray[np.bool_]:
+def _needed(
+    rig: Rig, moving: NDArray[np.bool_], codes: Ints, capsules: Ints, phase: BroadPhase
+) -> NDArray[np.bool_]:
     """Find the moving nodes whose frames the objective reads, and those above them."""
     needed = np.zeros(len(moving), dtype=np.bool_)
     reads = codes[:, 3]
     needed[reads[reads >= 0]] = True
     needed[capsules] = True
+    needed[phase.ball_node] = True
     for node in range(len(moving) - 1, 0, -1):
         if needed[node] and rig.chain.parents[node] >= 0:
             needed[rig.chain.parents[node]] = True

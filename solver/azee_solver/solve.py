@@ -179,13 +179,14 @@ class _Moment:
             unsettled=unsettled,
             first=first,
             thorough=last,
+            to_the_end=False,
         )
 
     def _settled(self, group: Group, q: Array, unsettled: frozenset[int], result: Result) -> Result:
         """Where constraints exclude each other, let the later ones give way to the earlier."""
         demands = self._demands_of(group)
 
-        def again(ease: Mapping[int, float], begin: Array) -> Result:
+        def again(ease: Mapping[int, float], begin: Array, *, finish: bool = False) -> Result:
             return solve_group(
                 self.body,
                 demands,
@@ -193,8 +194,10 @@ class _Moment:
                 group.free,
                 unsettled=unsettled,
                 ease=ease,
-                first=[begin, self.start],
+                first=[begin] if finish else [begin, self.start],
+                only_first=finish,
                 thorough=False,
+                to_the_end=finish,
             )
 
         ease: dict[int, float] = {}
@@ -207,7 +210,7 @@ class _Moment:
             other = again(fewer, result.q)
             if not other.lost():
                 ease, result = fewer, other
-        return result
+        return again(ease, result.q, finish=True) if result.missed() - result.undefined else result
 
     def _demands_of(self, group: Group) -> dict[int, Demand]:
         indices = sorted(i for p in group.problems for i in self.problems[p].demands)

@@ -9,8 +9,10 @@ import pytest
 from numpy.typing import NDArray
 from stick_body import stick_body
 
+from azee_rig.chain import Frames
 from azee_rig.rig import Rig
-from azee_solver import kernels
+from azee_solver import kernels, nlopt_backend
+from azee_solver.collisions import segment_distance
 from azee_solver.constraint import (
     BoneAxis,
     Constraint,
@@ -279,3 +281,101 @@ def test_a_miss_by_the_tolerance_costs_one(constraint: Constraint) -> None:
         assert value == pytest.approx((chord / wanted) ** 2, rel=1e-9)
     else:
         assert 0.0 < value < 2.0  # two eyes
+
+
+# Broad phase, NLopt through C, polish ----------------------------------------------------------
+
+
+def everything(seed: int) -> tuple[Case, Program]:
+    """A problem with every kind of term."""
+    case = Case(seed)
+    tape, capsules = case.tape, case.rig.capsules
+    rows = [
+        Row(kernels.MEET, tape.site(Site("I_TIP", S)), tape.point(POINTS[0]), 1e4),
+        Row(kernels.AT_DISTANCE, tape.site(Site("PA", W)), tape.point(POINTS[2]), 1e4, 0.1),
+        Row(kernels.MEET, tape.axis(PALM_S, BoneAxis.NRM), tape.unit(tape.vector(VECTORS[8])), 9e2),
+        Row(kernels.MEET, tape.axis(PALM_W, BoneAxis.DIR), tape.unit(tape.vector(VECTORS[5])), 9e2),
+        Row(kernels.PERPENDICULAR, tape.axis(HEAD, BoneAxis.DIR), tape.vector(VECTORS[7]), 9e2),
+    ]
+    reach = capsules.radius[capsules.pairs].sum(axis=1) + 0.02
+    collisions = Collisions(capsules.pairs, reach)
+    return case, case.program(rows, collisions, keep=1.0, comfort=3.0, overlap=1e4)
+
+
+def test_balls_pass_over_nothing_that_overlaps(signer: Rig) -> None:
+    limits, capsules = signer.coordinates, signer.capsules
+    pairs = np.vstack([capsules.pairs, capsules.finger_pairs])
+    reach = capsules.radius[pairs].sum(axis=1)
+    moving = np.ones(len(signer.chain.names), dtype=np.bool_)
+    tape = Tape(Evaluator(signer, Side.RIGHT), signer.chain.frames(limits.idle), moving)
+    nothing = np.zeros(len(limits))
+    program = Program(
+        signer,
+        limits.idle,
+        range(len(limits)),
+        tape,
+        [],
+        Collisions(pairs, reach),
+        Cost(nothing, nothing, nothing, 1.0),
+    )
+    balls = program.section(kernels.RUN_REACH)
+    assert len(balls) < len(pairs) / 5
+    near, random, overlapping = balls.copy(), np.random.default_rng(5), 0
+    for _ in range(60):
+        x = random.uniform(limits.lower, limits.upper)
+        balls[:] = near
+        value = program(x, np.empty(0))
+        balls[:] = 1e3
+        assert program(x, np.empty(0)) == value
+        ends = signer.chain.frames(x)
+        assert value == pytest.approx(float(np.sum(brute_overlaps(signer, pairs, ends) ** 2)))
+        overlapping += value > 0
+    assert overlapping > 20
+
+
+def brute_overlaps(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> NDArray[np.float64]:
+    capsules = rig.capsules
+    R, o = frames.rotations[capsules.node], frames.positions[capsules.node]
+    a = np.einsum("kij,kj->ki", R, capsules.a) + o
+    b = np.einsum("kij,kj->ki", R, capsules.b) + o
+    i, j = pairs.T
+    gap = capsules.radius[i] + capsules.radius[j] - segment_distance(a[i], b[i], a[j], b[j])
+    return np.maximum(gap, 0.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_nlopt_gives_the_same_bytes_through_c_and_through_python(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case, program = everything(seed)
+    x = case.q[program.free]
+    assert nlopt_backend.c_interface() is not None
+    compiled = program.descend(x, max_evaluations=150, tolerance=1e-6)
+    monkeypatch.setattr(nlopt_backend, "c_interface", lambda: None)
+    called = program.descend(x, max_evaluations=150, tolerance=1e-6)
+    assert compiled.tobytes() == called.tobytes()
+    assert program(compiled, np.empty(0)) < 0.5 * program(x, np.empty(0))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_polishing_ends_where_nothing_pulls_but_into_a_limit(seed: int) -> None:
+    case, program = everything(seed)
+    start = program.descend(case.q[program.free], max_evaluations=100, tolerance=1e-2)
+    before = program(start, np.empty(0))
+    x = program.polish(start, rounds=300, tolerance=1e-14)
+    gradient = np.empty(len(x))
+    assert program(x, gradient) <= before
+    assert np.all(x >= program.lower)
+    assert np.all(x <= program.upper)
+    at_limit = ((x == program.lower) & (gradient > 0)) | ((x == program.upper) & (gradient < 0))
+    first = np.empty(len(x))
+    program(start, first)
+    assert np.abs(gradient[~at_limit]).max() < 1e-3 * np.abs(first).max()
+
+
+def test_polishing_a_single_coordinate_is_newton_s_method() -> None:
+    """One parabola: a step or two reach its bottom to the last digits."""
+    case = Case(3, [stick_body().coordinates.index["head.axial"]])
+    program = case.program([], keep=2.0)
+    x = program.polish(np.array([0.4]), rounds=10, tolerance=0.0)
+    assert x[0] == pytest.approx(case.rig.coordinates.idle[program.free[0]], abs=1e-9)

@@ -27,7 +27,7 @@ import numba
 import numpy as np
 from numba import cfunc, njit
 
-carray: Any = numba.carray
+carray: Any = getattr(numba, "carray")  # noqa: B009 - its stubs hide the name
 types: Any = numba.types
 
 # Operations of a tape; its table is in `tape`.

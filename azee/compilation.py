@@ -13,8 +13,9 @@ from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
     from azee.lang.program import Program
-    from azee.motion.animate import Animation, Mode
+    from azee.motion.animate import Animation
     from azee.motion.clip import Clip
+    from azee.motion.keying import Mode
     from azee.motion.report import MotionReport
     from azee.score.score import Score
     from azee_grammar.source import Source
@@ -78,7 +79,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     libraries: Sequence[str | Path] = (),
     dominant: Hand = "right",
     fps: float = 30.0,
-    mode: Mode = "flat",
+    mode: Mode = "tracks",
     seed: int = 0,
     life: bool = True,
     solver: Method = "grouped",
@@ -130,7 +131,7 @@ def perform(
     *,
     dominant: Hand = "right",
     fps: float = 30.0,
-    mode: Mode = "flat",
+    mode: Mode = "tracks",
     seed: int = 0,
     life: bool = True,
     solver: Method = "grouped",

@@ -20,7 +20,7 @@ from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
     from azee.compilation import Hand, Method
-    from azee.motion.animate import Mode
+    from azee.motion.keying import Mode
 
 
 def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
@@ -56,10 +56,11 @@ def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
 @dominant_option
 @click.option(
     "--mode",
-    type=click.Choice(["flat"]),
-    default="flat",
+    type=click.Choice(["tracks", "flat"]),
+    default="tracks",
     show_default=True,
-    help="How blocks become movement; flat: on one time line, as in the 2018 paper.",
+    help="How blocks become movement: each keys what it needs, or all on one time line, as in "
+    "the 2018 paper.",
 )
 @click.option(
     "--solver",

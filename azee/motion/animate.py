@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +15,14 @@ from azee.motion.clip import Clip
 from azee.motion.face import RAMP_S, face_weights
 from azee.motion.flatten import flatten
 from azee.motion.idle import AFTER_S, BEFORE_S, BLINK, blinks, breathing
+from azee.motion.keying import MODES, Keying, Mode
 from azee.motion.labels import labels
 from azee.motion.limbs import Limbs
 from azee.motion.movement import Movement
 from azee.motion.plan import plan
 from azee.motion.posture import PostureSolver, Search
 from azee.motion.report import MotionReport, constraint_results, limit_excess
-from azee.motion.tracks import Track, flat_track
+from azee.motion.tracks import Track, tracks
 from azee.motion.trill import laid_on, oscillation
 from azee.score.score import Score
 from azee_rig.rig import Rig
@@ -34,8 +34,6 @@ from azee_solver.report import SolveReport
 from azee_solver.solve import solve
 
 Array = NDArray[np.float64]
-
-Mode = Literal["flat"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,28 +58,30 @@ def animate(
     *,
     fps: float = 30.0,
     dominant: Side = Side.RIGHT,
-    mode: Mode = "flat",
+    mode: Mode = "tracks",
     seed: int = 0,
     life: bool = True,
     solver: PostureSolver | None = None,
 ) -> Animation:
     """Make a body play a score.
 
-    Args: fps: frames per second, positive. seed: of the blinks and breaths. life: whether there
-        are any. solver: what solves key postures; `azee_solver.solve` if none is given.
+    Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
+        blinks and breaths. life: whether there are any. solver: what solves key
+        postures; `azee_solver.solve` if none is given.
     Raises: BindingError: the rig lacks a bone, site or morph that the score names.
         ValueError: an unknown mode or a frame rate that is none.
     """
-    if mode != "flat":
-        raise ValueError(f"there is no mode '{mode}'; the modes are: flat")
+    if mode not in MODES:
+        raise ValueError(f"there is no mode '{mode}'; the modes are: {', '.join(MODES)}")
     if not (math.isfinite(fps) and fps > 0):
         raise ValueError(f"{fps} frames per second make no clip")
     evaluator = Evaluator(rig, dominant)
     limbs = Limbs.of(rig.coordinates)
     bound = bind(flatten(score), rig, evaluator.binding, limbs)
+    keying = Keying(limbs, mode)
     rate = Fraction(fps)
     inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
-    solved = plan(bound, evaluator, limbs, solver or _solver(rig, dominant), inside)
+    solved = plan(bound, evaluator, keying, solver or _solver(rig, dominant), inside)
     lead, times = _frame_times(score.duration, solved.movement, bound.faces, rate)
     frames = np.array([float(t) for t in times])
 
@@ -125,7 +125,7 @@ def animate(
         report,
         tuple(float(p.time) + lead_s for p in solved.postures),
         lead_s,
-        flat_track(solved.postures, rig.coordinates, float(score.duration)),
+        tracks(bound, solved.postures, keying, rig.coordinates),
     )
 
 

@@ -25,12 +25,13 @@ from azee_solver.geometry import Between, Moving, Point, VTranslate, WorldPoint
 class Bound:
     """A requirement on one rig.
 
-    moves: coordinates with which the bone or site that it speaks of is moved. reads: the others
-    that its residual depends on. limbs, read_limbs: the limbs of either.
-    dynamic: its target moves while it lasts.
+    limb: the one that it speaks of. moves: coordinates with which the bone or site that it speaks
+    of is moved. reads: the others that its residual depends on. limbs, read_limbs: the limbs of
+    either. dynamic: its target moves while it lasts.
     """
 
     requirement: Requirement
+    limb: str
     moves: frozenset[int]
     reads: frozenset[int]
     limbs: frozenset[str]
@@ -130,18 +131,27 @@ def bind(timeline: Timeline, rig: Rig, binding: Binding, limbs: Limbs) -> BoundS
 
 def _bind(requirement: Requirement, rig: Rig, binding: Binding, limbs: Limbs) -> Bound:
     constraint = requirement.constraint
+    limb = limb_of_constraint(constraint, binding)
     body = anatomy(rig.chain, rig.coordinates)
     moves, affected = frozenset[int](), frozenset[int]()
     if not isinstance(constraint, Morph):
         print_ = footprint(_alike(constraint), binding)
         moves, affected = print_.movers(body), print_.affected(body)
-        if limb_of_constraint(constraint, binding) in _HEAD:
+        if limb in _HEAD:
             moves &= frozenset(v for n in _HEAD for v in limbs.members.get(n, ()))
     elif binding.is_skeletal(constraint):
         moves = affected = frozenset(binding.preset(constraint))
     reads = affected - moves
     dynamic = isinstance(constraint, Place | LookAt) and has_moving(constraint.point)
-    return Bound(requirement, moves, reads, limbs.touching(moves), limbs.touching(reads), dynamic)
+    return Bound(
+        requirement,
+        limb,
+        moves,
+        reads,
+        limbs.touching(moves),
+        limbs.touching(reads),
+        dynamic,
+    )
 
 
 _HEAD = ("head", "eyes")

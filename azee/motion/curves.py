@@ -3,8 +3,8 @@
 Curves run on coordinates, never on quaternions: every convex blend of two postures stays inside
 the limits and on the joints' own manifold. Between two key postures a limb moves by minimum jerk.
 Where keys lie on a movement (samples of a path, keys added to hold a constraint) it passes through
-them without stopping: a C² spline over the movement's own progress, minimum jerk in time, so that
-the whole is C² and at rest at both ends. What a spline overshoots is clamped to the limits.
+them without stopping, by the curve of least jerk through all of them (see `least_jerk`): the whole is
+C² and at rest at both ends. What such a curve overshoots is clamped to the limits.
 
 A limb that nothing needs for a while goes on to where it is next needed, or to rest and back.
 """
@@ -21,7 +21,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.spline import cubic_spline, minimum_jerk
+from azee.motion.least_jerk import through
 
 Array = NDArray[np.float64]
 
@@ -133,13 +133,9 @@ def _run(keys: Sequence[LimbKey], times_s: Array, out: Array) -> None:
     if end <= start:
         out[inside] = keys[-1].values
         return
-    span = end - start
-    progress = minimum_jerk((times_s[inside] - start) / span)
     values = np.stack([key.values for key in keys])
     if np.all(values == values[0]):
         out[inside] = values[0]
         return
-    knots = minimum_jerk((np.array([key.time_s for key in keys]) - start) / span)
-    keep = np.r_[True, np.diff(knots[:-1]) > 1e-12, True]
-    keep[1:-1] &= knots[-1] - knots[1:-1] > 1e-12
-    out[inside] = cubic_spline(knots[keep], values[keep], progress)
+    knots = np.array([key.time_s for key in keys])
+    out[inside] = through(knots, values, times_s[inside])

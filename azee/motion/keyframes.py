@@ -102,12 +102,12 @@ def _apart(
     staying = [b for b in closing if b.requirement.path not in yielding]
     after = poser.solve(time, [*opening, *staying])
     going_on = [b for b in [*opening, *staying] if b.requirement.interval.start < time]
-    before = poser.solve(time, [*leaving, *going_on], Origin.EARLY_END)
+    before = poser.solve(time, [*leaving, *going_on], Origin.EARLY_END, leaving)
     end = time - _way(before, after, leaving, poser)
     since = poser.last.time if poser.last is not None else None
     out: list[KeyPosture] = []
     if since is None or end > since:
-        out.append(poser.accept(poser.solve(end, [*leaving, *going_on], Origin.EARLY_END)))
+        out.append(poser.accept(poser.solve(end, [*leaving, *going_on], Origin.EARLY_END, leaving)))
     else:
         end = since
     to = starting[0].requirement.path

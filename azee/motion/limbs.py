@@ -31,15 +31,17 @@ from azee_solver.geometry import Bone, Site
 
 TRUNK = "trunk"
 """The limb that carries all others."""
+LINKS = (TRUNK, "head")
+"""Limbs that move others along."""
 
-_FINGER = re.compile(r"(?:thumb|index|middle|ring|little)_([LR])(?:_\d)?")
+_FINGER = re.compile(r"((?:thumb|index|middle|ring|little)_[LR])(?:_\d)?")
 _ARM = re.compile(r"(?:clav|arm|f_arm|palm)_([LR])")
 
 
 def limb_of_bone(bone: str) -> str:
     """Limb that a bone of the body belongs to, such as `arm_L`, by the bone's key."""
     if found := _FINGER.fullmatch(bone):
-        return f"fingers_{found[1]}"
+        return found[1]
     if found := _ARM.fullmatch(bone):
         return f"arm_{found[1]}"
     if bone.startswith("eye_"):

@@ -12,11 +12,11 @@ import numpy as np
 from azee.motion.bound import Bound, BoundScore
 from azee.motion.gauge import Gauge, Instants
 from azee.motion.keyframes import active, solve_boundaries
-from azee.motion.limbs import Limbs
+from azee.motion.keying import Keying
 from azee.motion.movement import Movement
 from azee.motion.poser import Poser
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
-from azee.motion.refine import CLOSEST_S, Refinement
+from azee.motion.refine import CLOSEST_S, Refinement, merged
 from azee.motion.rest import Rest
 from azee.motion.spans import Spans
 from azee.motion.transpath import (
@@ -49,7 +49,7 @@ class Plan:
 def plan(
     score: BoundScore,
     evaluator: Evaluator,
-    limbs: Limbs,
+    keying: Keying,
     solver: PostureSolver,
     frame_times: Sequence[Fraction],
 ) -> Plan:
@@ -58,8 +58,8 @@ def plan(
     at = by_time(known)
     later = deferred(known, (k.time for k in score.timeline.keyframes))
     coordinates = evaluator.rig.coordinates
-    rest = Rest(score.postures, limbs, coordinates.idle)
-    poser = Poser(coordinates, limbs, solver, at, rest)
+    rest = Rest(score.postures, keying.limbs, coordinates.idle)
+    poser = Poser(coordinates, keying, solver, at, rest)
     first = solve_boundaries(score, poser, evaluator.binding, later)
     needed = [
         *((b.requirement.interval, b.limbs | b.read_limbs) for b in score.postures),
@@ -70,7 +70,7 @@ def plan(
     hopeless = frozenset(
         c.demand.constraint for p in first.postures for c in p.report.constraints if not c.met
     )
-    refinement = Refinement(gauge, limbs, solver, holders, hopeless)
+    refinement = Refinement(gauge, keying, solver, holders, hopeless)
     work = _Work(refinement, known, at, list(first.postures), frame_times)
     work.steer(later)
     work.follow([b for b in score.postures if b.dynamic])
@@ -148,8 +148,7 @@ class _Work:
                 passing_limbs(t, active(gauge.score, t, gauge.giving_way), self.travels_at.at(t))
                 for t in ordered
             ]
-        self.postures += self.refinement.solve(ordered, base, origin, passing)
-        self.postures.sort(key=lambda p: p.time)
+        self.postures = merged(self.postures, self.refinement.solve(ordered, base, origin, passing))
 
     def _on_frames(self, samples: Iterable[Fraction]) -> list[Fraction]:
         """Return the frames next to samples, but for those that are as good as keys already.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from azee.motion.bound import Bound, limbs_asked
 from azee.motion.curves import transition_s
+from azee.motion.keying import Keying, fresh
 from azee.motion.limbs import TRUNK, Limbs
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
 from azee.motion.rest import CARRIERS, Rest
@@ -22,9 +22,6 @@ from azee_rig.coordinates import Coordinates
 from azee_solver.demand import Demand
 
 Array = NDArray[np.float64]
-
-MOVED_RAD = math.radians(1.0)
-"""A limb that nothing asked for is keyed if the solver moved it by more than this."""
 
 
 def demands_of(
@@ -53,7 +50,7 @@ class Poser:
     """
 
     coordinates: Coordinates
-    limbs: Limbs
+    keying: Keying
     solver: PostureSolver
     travels: Spans[Travel]
     rest: Rest
@@ -62,25 +59,41 @@ class Poser:
     _let_go: dict[str, Fraction] = field(init=False, default_factory=dict)
     """Since when a trunk, head or eyes that others still constrain are free of what ended."""
 
+    @property
+    def limbs(self) -> Limbs:
+        """The limbs of the body."""
+        return self.keying.limbs
+
     def __post_init__(self) -> None:
         self.current = np.array(self.coordinates.idle)
 
     def solve(
-        self, time: Fraction, bounds: Sequence[Bound], origin: Origin = Origin.BOUNDARY
+        self,
+        time: Fraction,
+        bounds: Sequence[Bound],
+        origin: Origin = Origin.BOUNDARY,
+        leaving: Sequence[Bound] = (),
     ) -> KeyPosture:
-        """Solve an instant, or take over the last posture where it asks for nothing new."""
+        """Solve an instant, or take over the last posture where it asks for nothing new.
+
+        Args: leaving: what ends here though its block does not.
+        """
         demands = demands_of(bounds, time)
+        begun = [*fresh(bounds, time), *leaving]
         asked = limbs_asked(bounds)
         passing = passing_limbs(time, bounds, self.travels.at(time))
         last = self.last
         current = self.rest.applied(self.current, last, time)
         relieved = self._relieved(time, bounds)
         if last is not None and not relieved and _nothing_new(demands, last):
-            keyed = asked | (last.limbs if set(demands) == set(last.demands) else frozenset())
-            indices = [v for limb in keyed for v in self.limbs.members[limb]]
+            same = asked | (last.limbs if set(demands) == set(last.demands) else frozenset())
+            indices = [v for limb in same for v in self.limbs.members[limb]]
             if np.array_equal(current[indices], last.coordinates[indices]):
                 left = {d.constraint for d in demands}
                 kept = tuple(c for c in last.report.constraints if c.demand.constraint in left)
+                still = np.zeros(len(current))
+                keyed = self.keying.at_boundary(bounds, begun, still, still)
+                keyed |= same & last.limbs - asked
                 return KeyPosture(
                     time, current, keyed, passing, tuple(bounds), demands,
                     replace(last.report, constraints=kept), origin, reused=True,
@@ -99,7 +112,10 @@ class Poser:
             report = self.solver(demands, start=start, reference=reference)
         else:
             demands, report = beside
-        keyed = keyed_limbs(bounds, report.coordinates - reference, self.limbs)
+        keyed = self.keying.at_boundary(
+            bounds, begun, report.coordinates - current, report.coordinates - reference
+        )
+        passing |= self.keying.following(bounds, begun)
         return KeyPosture(
             time, report.coordinates, keyed, passing, tuple(bounds), demands, report, origin
         )
@@ -162,18 +178,6 @@ class Poser:
         since = self.last.time
         going = (b for b in bounds if b.requirement.interval.start <= since < time)
         return frozenset().union(*(b.limbs for b in going))
-
-
-def keyed_limbs(bounds: Iterable[Bound], moved: Array, limbs: Limbs) -> frozenset[str]:
-    """Return the limbs that a solved posture is a key of.
-
-    These are the limbs that the demands move or read, for a constraint holds only with them as
-    the solver saw them, and any other that it moved (the head, levelled over a bent trunk).
-
-    Args: moved: (V,) how far the solver moved coordinates from where they would be without it.
-    """
-    far = np.flatnonzero(np.abs(moved) > MOVED_RAD)
-    return limbs_asked(bounds) | limbs.touching(int(v) for v in far)
 
 
 def _nothing_new(demands: Iterable[Demand], last: KeyPosture) -> bool:

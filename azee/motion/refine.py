@@ -8,8 +8,9 @@ pass through it without stopping. Repeated, this halves the stretches that are t
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -18,11 +19,13 @@ from numpy.typing import NDArray
 from azee.motion.bound import Bound
 from azee.motion.gauge import Gauge, Instants, instants
 from azee.motion.keyframes import active
-from azee.motion.limbs import TRUNK, Limbs
+from azee.motion.keying import Keying, fresh
+from azee.motion.limbs import LINKS, TRUNK, Limbs
 from azee.motion.movement import Movement, movement
-from azee.motion.poser import demands_of, keyed_limbs
+from azee.motion.poser import demands_of
 from azee.motion.posture import KeyPosture, Origin, PostureSolver, Search
 from azee.motion.spans import Spans
+from azee.motion.standing import free_limbs
 from azee_solver.constraint import Constraint
 from azee_solver.demand import Demand
 from azee_solver.report import SolveReport
@@ -32,9 +35,13 @@ Array = NDArray[np.float64]
 ROUNDS = 12
 MARGIN = 0.9
 """Share of the tolerance that an interpolated posture may use up before a key is added."""
+SETTLED = 0.5
+"""Share of the tolerance within which a constraint needs nothing where a key is added."""
 NO_WORSE = 1.1
 """Between keys that miss a constraint, it may be missed by this much more."""
-CLOSEST_S = 0.005
+TRIALS = 4
+"""So often an instant is solved anew because other tracks have changed since."""
+CLOSEST_S = 0.003
 """Keys nearer than this to another would only shake."""
 NEIGHBOURS = 3
 """A key that is added bends the curve about as many keys away; those stretches are checked."""
@@ -54,12 +61,17 @@ class Refinement:
     """What solves moments on the way, once boundaries and courses are known."""
 
     gauge: Gauge
-    limbs: Limbs
+    keying: Keying
     solver: PostureSolver
     holders: Spans[frozenset[str]]
     """Limbs that something needs, by when."""
     hopeless: frozenset[Constraint] = frozenset()
     """Constraints that a key posture at a boundary could not meet."""
+
+    @property
+    def limbs(self) -> Limbs:
+        """The limbs of the body."""
+        return self.keying.limbs
 
     def join(self, postures: Iterable[KeyPosture]) -> Movement:
         """Return the movement through key postures."""
@@ -91,8 +103,15 @@ class Refinement:
             paths = [c.demand(t) for c, t in zip(steering, targets, strict=True)]
             asking = [*bounds, *(c.travel.bound for c in steering)]
             demands = demands_of(bounds, time, paths)
-            report = self._beside_the_trunk(one, bounds, demands) or self._whole(demands, q)
-            keyed = keyed_limbs(asking, report.coordinates - q, self.limbs)
+            begun = fresh(bounds, time) if origin is Origin.BOUNDARY else []
+            report = (
+                self._beside_the_rest(one, asking, begun, demands)
+                or self._beside_the_trunk(one, bounds, demands)
+                or self._whole(demands, q)
+            )
+            lost = {c.demand.constraint for c in report.constraints if not c.met}
+            missed = [b for b in asking if b.constraint in lost]
+            keyed = self.keying.on_the_way([*begun, *missed], report.coordinates - q)
             through = every if passing is None else passing[i]
             out.append(
                 KeyPosture(
@@ -101,6 +120,35 @@ class Refinement:
                 )
             )  # fmt: skip
         return out
+
+    def _beside_the_rest(
+        self,
+        one: Instants,
+        asking: Sequence[Bound],
+        begun: Sequence[Bound],
+        demands: Sequence[Demand],
+    ) -> SolveReport | None:
+        """Move only what serves constraints that are missed; none if that does not do.
+
+        What the other tracks have right stays exactly where they have it. So do trunk and head,
+        which others move along with, unless what is missed speaks of them: eyes keep their aim
+        while a head shakes, and an arm reaches its path from the trunk as it finds it.
+        """
+        kept: list[Bound] = []
+        new = [*begun]
+        for b in asking:
+            residual = float(self.gauge.residual(b, one)[0])
+            missed = not residual <= self.gauge.tolerance(b) * SETTLED
+            (new if missed and b not in begun else kept).append(b)
+        free = free_limbs(kept, new, stays=frozenset(LINKS) - {b.limb for b in new})
+        if not new or free >= frozenset(self.limbs.names):
+            return None
+        members = (self.limbs.members[limb] for limb in self.limbs.names if limb not in free)
+        fixed = frozenset(int(v) for indices in members for v in indices)
+        report = self.solver(
+            demands, start=one.q[0], reference=one.q[0], search=Search.NEAR, fixed=fixed
+        )
+        return report if report.met else None
 
     def _beside_the_trunk(
         self, one: Instants, bounds: Sequence[Bound], demands: Sequence[Demand]
@@ -135,52 +183,76 @@ class Refinement:
         """Return key postures with those added that the frames need."""
         out = sorted(postures, key=lambda p: p.time)
         near: Sequence[Fraction] | None = None  # frames to look at; none for all
+        tried: Counter[Fraction] = Counter()
         for _ in range(ROUNDS):
-            current, keys, at = self._measured(out, frame_times if near is None else near)
-            worst = self._worst(at, keys)
+            current, at = self._measured(out, frame_times if near is None else near)
+            worst = [t for t in self._worst(at, out) if tried[t] < TRIALS]
             if worst:
-                out += self.solve(worst, current, Origin.ADDED)
-                out.sort(key=lambda p: p.time)
-                near = _near(worst, keys, frame_times)
+                tried.update(worst)
+                near = _near(worst, sorted({p.time for p in out}), frame_times)
+                out = merged(out, self.solve(worst, current, Origin.ADDED))
             elif near is None:
                 return Refined(tuple(out), current, at)
             else:
                 near = None
-        current, _, at = self._measured(out, frame_times)
+        current, at = self._measured(out, frame_times)
         return Refined(tuple(out), current, at)
 
     def _measured(
         self, postures: Iterable[KeyPosture], frame_times: Iterable[Fraction]
-    ) -> tuple[Movement, list[Fraction], Instants]:
-        """Return the movement through postures, their times, and it at frames and keys."""
+    ) -> tuple[Movement, Instants]:
+        """Return the movement through postures, and it at frames and keys."""
         current = self.join(postures)
-        keys = sorted({p.time for p in postures})
-        at = instants(current, sorted({*frame_times, *keys}), self.gauge.evaluator)
-        return current, keys, at
+        keys = {p.time for p in postures}
+        return current, instants(current, sorted({*frame_times, *keys}), self.gauge.evaluator)
 
-    def _worst(self, at: Instants, keys: Sequence[Fraction]) -> list[Fraction]:
+    def _worst(self, at: Instants, postures: Sequence[KeyPosture]) -> list[Fraction]:
         """Return the worst instant of every stretch between keys that has one out of tolerance."""
+        keys = sorted({p.time for p in postures})
         if len(keys) < 2:
             return []
         key_s = np.array([float(t) for t in keys])
         stretch = np.clip(np.searchsorted(key_s, at.seconds, side="right") - 1, 0, len(keys) - 2)
-        ratio = self._ratios(at, stretch, np.searchsorted(at.seconds, key_s))
-        near = np.minimum(
-            np.abs(at.seconds - key_s[stretch]), np.abs(key_s[stretch + 1] - at.seconds)
-        )
-        ratio[near < CLOSEST_S] = 0.0
+        ratio = self._ratios(at, self._key_rows(at, postures), self._missed_rows(at, postures))
         out = []
         for s in np.unique(stretch[ratio > 1.0]):
             members = np.flatnonzero(stretch == s)
             out.append(at.times[int(members[int(np.argmax(ratio[members]))])])
         return out
 
+    def _key_rows(
+        self, at: Instants, postures: Sequence[KeyPosture]
+    ) -> dict[str, NDArray[np.int64]]:
+        """Rows of every limb's keys among the instants, increasing."""
+        found: dict[str, list[int]] = {name: [] for name in self.limbs.names}
+        rows = np.searchsorted(at.seconds, [float(p.time) for p in postures])
+        for posture, row in zip(postures, rows.tolist(), strict=True):
+            for limb in posture.limbs:
+                found[limb].append(row)
+        return {limb: np.array(rows, dtype=np.int64) for limb, rows in found.items()}
+
+    def _missed_rows(
+        self, at: Instants, postures: Sequence[KeyPosture]
+    ) -> dict[Constraint, set[int]]:
+        """Rows of the keys at which the solver could not meet a constraint."""
+        found: dict[Constraint, set[int]] = {}
+        rows = np.searchsorted(at.seconds, [float(p.time) for p in postures])
+        for posture, row in zip(postures, rows.tolist(), strict=True):
+            for answer in posture.report.constraints:
+                if not answer.met:
+                    found.setdefault(answer.demand.constraint, set()).add(row)
+        return found
+
     def _ratios(
-        self, at: Instants, stretch: NDArray[np.int64], key_rows: NDArray[np.int64]
+        self,
+        at: Instants,
+        key_rows: Mapping[str, NDArray[np.int64]],
+        missed_rows: Mapping[Constraint, set[int]],
     ) -> Array:
         """Largest residual at every instant over what is allowed there, (T,).
 
-        Args: stretch: (T,) which two keys an instant is between. key_rows: (K,) the keys' own rows.
+        Between two keys that miss a constraint though they key all that it depends on, it may be
+        missed a little more.
         """
         ratio = np.zeros(len(at.times))
         for bound in self.gauge.measurable:
@@ -188,15 +260,55 @@ class Refinement:
             if rows.start == rows.stop:
                 continue
             residual = self.gauge.residual(bound, at.only(rows))
-            first, last = int(stretch[rows.start]), int(stretch[rows.stop - 1]) + 2
-            allowed = np.full(last - first, self.gauge.tolerance(bound) * MARGIN)
-            own = key_rows[first:last] - rows.start
-            inside = np.flatnonzero((own >= 0) & (own < len(residual)))
-            allowed[inside] = np.fmax(allowed[inside], NO_WORSE * residual[own[inside]])
-            between = stretch[rows] - first
-            limit = np.maximum(allowed[between], allowed[between + 1])
-            ratio[rows] = np.fmax(ratio[rows], residual / limit)
+            asked = (bound.limbs | bound.read_limbs) or self.limbs.names
+            keys = [_around(key_rows[limb], rows) for limb in asked]
+            own = np.unique(np.concatenate(keys))
+            settled = np.isin(own, [*missed_rows.get(bound.constraint, ())])
+            settled |= np.all([np.isin(own, k) for k in keys], axis=0)
+            full = own[settled]
+            allowed = np.full(len(full) + 1, self.gauge.tolerance(bound) * MARGIN)
+            inside = np.flatnonzero((full >= rows.start) & (full < rows.stop))
+            allowed[inside] = np.fmax(
+                allowed[inside], NO_WORSE * residual[full[inside] - rows.start]
+            )
+            after = np.searchsorted(full, np.arange(rows.start, rows.stop))
+            excess = residual / np.maximum(allowed[after - 1], allowed[after])
+            here = own[(own >= rows.start) & (own < rows.stop)] - rows.start
+            excess[here] *= MARGIN
+            excess[_near_keys(at.seconds, own, rows)] = 0.0
+            ratio[rows] = np.fmax(ratio[rows], excess)
         return ratio
+
+
+def _around(keys: NDArray[np.int64], rows: slice) -> NDArray[np.int64]:
+    """Rows of a limb's keys inside some rows, and of the ones before and after them."""
+    first, last = np.searchsorted(keys, (rows.start, rows.stop))
+    return keys[max(0, int(first) - 1) : int(last) + 1]
+
+
+def _near_keys(seconds: Array, own: NDArray[np.int64], rows: slice) -> NDArray[np.bool_]:
+    """Which instants of some rows are beside a key, but too near for another one, (R,)."""
+    if not len(own):
+        return np.zeros(rows.stop - rows.start, dtype=np.bool_)
+    at, keys = seconds[rows], seconds[own]
+    after = np.searchsorted(keys, at)
+    away = np.minimum(
+        np.abs(at - keys[np.maximum(after - 1, 0)]),
+        np.abs(keys[np.minimum(after, len(keys) - 1)] - at),
+    )
+    return np.asarray((away > 0.0) & (away < CLOSEST_S))
+
+
+def merged(postures: Iterable[KeyPosture], added: Iterable[KeyPosture]) -> list[KeyPosture]:
+    """Return key postures in order of time; what is added to an instant completes its key."""
+    by_time = {p.time: p for p in postures}
+    for new in added:
+        old = by_time.get(new.time)
+        if old is not None:
+            through = old.passing | (new.limbs - old.limbs)
+            new = replace(new, limbs=old.limbs | new.limbs, passing=through, origin=old.origin)
+        by_time[new.time] = new
+    return sorted(by_time.values(), key=lambda p: p.time)
 
 
 def _near(

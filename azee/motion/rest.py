@@ -10,7 +10,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.bound import Bound
+from azee.motion.bound import Bound, limbs_asked
 from azee.motion.curves import GO_ON_S, transition_s
 from azee.motion.limbs import TRUNK, Limbs
 from azee.motion.posture import KeyPosture
@@ -45,7 +45,7 @@ class Rest:
 
     def note(self, posture: KeyPosture) -> None:
         """Remember what a posture needs."""
-        for limb in posture.limbs:
+        for limb in posture.limbs | limbs_asked(posture.bounds):
             self._needed[limb] = posture.time
         for b in posture.bounds:
             for limb in b.limbs:

@@ -153,7 +153,7 @@ USAGE = {
     "no suffix": ["compile", "one.azee", "-o", "x"],
     "a score is no GLB": ["score", "one.azee", "-o", "x.glb"],
     "unknown rig": ["compile", "one.azee", "--rig", "nobody"],
-    "unknown mode": ["compile", "one.azee", "--mode", "tracks"],
+    "unknown mode": ["compile", "one.azee", "--mode", "wild"],
     "no frames": ["compile", "one.azee", "--fps", "0"],
     "not a number": ["compile", "one.azee", "--fps", "nan"],
     "no such hand": ["compile", "one.azee", "--dominant", "middle"],

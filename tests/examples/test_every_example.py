@@ -139,7 +139,9 @@ def test_the_library_call_of_the_readme_works(python: Python, tmp_path: Path) ->
 @each
 def test_no_arm_enters_trunk_or_head_at_a_key_posture(source: Path) -> None:
     made = azee.compile(source, life=False)
-    frames = {int(np.abs(made.clip.times - time).argmin()) for time in made.animation.key_times}
+    keys = (p for p in made.report.postures if p.limbs & {"arm_L", "arm_R"})
+    times = (float(p.time) + made.animation.lead_s for p in keys)
+    frames = {int(np.abs(made.clip.times - time).argmin()) for time in times}
     found = [
         (round(float(made.clip.times[frame]), 2), p.limb, p.body, p.depth_m)
         for frame in sorted(frames)

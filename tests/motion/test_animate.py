@@ -463,9 +463,17 @@ def test_a_mode_that_is_none_is_an_error() -> None:
 
 
 def test_flat_has_one_track_with_all_keys() -> None:
-    animation = played(TWO_KEYS)
+    animation = animate(TWO_KEYS, rig(), mode="flat")
     (track,) = animation.tracks
     assert track.path == ()
     assert track.coordinates == tuple(rig().coordinates.names)
     assert track.keys_s == tuple(sorted({float(p.time) for p in animation.report.postures}))
     assert (track.start_s, track.end_s) == (0.0, 0.8)
+
+
+def test_tracks_give_each_block_what_it_needs() -> None:
+    tracks = {"/".join(t.path): t for t in played(SHAKE).tracks}
+    assert {c.partition(".")[0] for c in tracks["R"].coordinates} <= {"neck", "head"}
+    assert tracks["R"].keys_s == pytest.approx((0.3, 0.4))
+    assert tracks["SIGN"].keys_s == pytest.approx((0.0, 1.2))
+    assert {"arm_R.flexion", "f_arm_R.flexion"} <= set(tracks["SIGN"].coordinates)

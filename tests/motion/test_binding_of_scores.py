@@ -55,6 +55,9 @@ TIP = Site("I_TIP", S)
 PALM = Bone("palm", S)
 
 
+FINGERS = ("index", "middle", "ring", "little", "thumb")
+
+
 @cache
 def rig() -> Rig:
     return load_rig()
@@ -82,20 +85,21 @@ def one(constraint: Constraint) -> Bound:
 def test_every_coordinate_is_of_one_limb() -> None:
     limbs = Limbs.of(rig().coordinates)
     assert limbs.names == (
-        "trunk", "head", "eyes", "arm_L", "fingers_L", "arm_R", "fingers_R",
+        "trunk", "head", "eyes", "arm_L", *(f"{f}_L" for f in FINGERS), "arm_R",
+        *(f"{f}_R" for f in FINGERS),
     )  # fmt: skip
     assert sum(len(m) for m in limbs.members.values()) == len(rig().coordinates)
     assert limbs.touching([rig().coordinates.index["clav_L.elevation"]]) == {"arm_L"}
 
 
 def test_a_placement_claims_the_way_from_the_trunk_to_its_site() -> None:
-    assert one(Place(TIP, MIDDLE)).limbs == {"trunk", "arm_R", "fingers_R"}
+    assert one(Place(TIP, MIDDLE)).limbs == {"trunk", "arm_R", "index_R"}
     assert one(Place(TIP, MIDDLE)).read_limbs == frozenset()
 
 
 def test_what_a_target_hangs_on_is_read() -> None:
     forehead = one(Place(TIP, SitePoint(Site("FH"))))
-    assert forehead.limbs == {"arm_R", "fingers_R"}
+    assert forehead.limbs == {"arm_R", "index_R"}
     assert forehead.read_limbs == {"head"}
 
 
@@ -237,7 +241,7 @@ def test_what_follows_a_moving_hand_moves() -> None:
     )
     known = travels(score, Side.RIGHT)
     followers = [b for b in score.postures if b.requirement.path == ("F",)]
-    assert {"arm_R", "arm_L", "fingers_L"} <= passing_limbs(F(1), followers, known)
+    assert {"arm_R", "arm_L", "index_L"} <= passing_limbs(F(1), followers, known)
     assert passing_limbs(F(1, 2), followers, known) == frozenset()
 
 

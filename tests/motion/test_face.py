@@ -22,7 +22,7 @@ def face(name: str, weight: float, start: str, end: str) -> Bound:
     interval = Interval(F(start), F(end))
     requirement = Requirement(Morph(name, None, weight), ("FACE",), None, interval, interval, 0)
     nothing: frozenset[int] = frozenset()
-    return Bound(requirement, nothing, nothing, frozenset(), frozenset(), dynamic=False)
+    return Bound(requirement, "face", nothing, nothing, frozenset(), frozenset(), dynamic=False)
 
 
 def test_a_long_block_is_a_plateau_between_two_ramps_inside_it() -> None:

@@ -315,7 +315,7 @@ def test_on_the_way_the_trunk_keeps_its_curve_and_only_the_near_is_searched() ->
     on_the_way = [a for a in solver.asked if a.search is Search.NEAR]
     trunk = {i for i, n in enumerate(rig().coordinates.names) if n.startswith("back_")}
     assert on_the_way
-    assert all(a.fixed == trunk for a in on_the_way)
+    assert all(a.fixed >= trunk for a in on_the_way)
     assert all(isinstance(p, WorldPoint) for points in solver.placed()[2:] for p in points)
     assert Origin.PATH in [p.origin for p in animation.report.postures]
 

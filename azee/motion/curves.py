@@ -3,8 +3,8 @@
 Curves run on coordinates, never on quaternions: every convex blend of two postures stays inside
 the limits and on the joints' own manifold. Between two key postures a limb moves by minimum jerk.
 Where keys lie on a movement (samples of a path, keys added to hold a constraint) it passes through
-them without stopping, by the curve of least jerk through all of them (see `least_jerk`): the whole is
-C² and at rest at both ends. What such a curve overshoots is clamped to the limits.
+them without stopping, by the curve of least jerk through all of them (see `least_jerk`): the whole
+is C² and at rest at both ends. What such a curve overshoots is clamped to the limits.
 
 A limb that nothing needs for a while goes on to where it is next needed, or to rest and back.
 """

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import click
 
 from azee.cli.body import load_body
-from azee.cli.console import DONE, FAULT, MISSED, Progress, as_json, news, show, show_json, working
+from azee.cli.console import DONE, FAULT, MISSED, as_json, news, show, show_json, working
 from azee.cli.outcome import outcome
 from azee.cli.outputs import check_outputs, with_suffix
+from azee.cli.profile import Profile
 from azee.cli.text import Text, dominant_option, text_options
 from azee.compilation import perform
 from azee.formats import WRITERS
@@ -21,6 +22,9 @@ from azee_grammar.diagnostic import AZeeError
 if TYPE_CHECKING:
     from azee.compilation import Hand, Method
     from azee.motion.keying import Mode
+
+
+PATIENCE = "Preparing the solver: the first run after installing takes longer …"
 
 
 def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
@@ -78,6 +82,7 @@ def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
     help="Write what was solved and how well.",
 )
 @click.option("--strict", is_flag=True, help="Exit with 3 if a constraint is out of tolerance.")
+@click.option("--profile", is_flag=True, help="Tell where the time of the whole process goes.")
 @click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
 @click.option(
     "--format",
@@ -100,6 +105,7 @@ def compile_(
     no_life: bool,
     report: Path | None,
     strict: bool,
+    profile: bool,
     quiet: bool,
     form: str,
 ) -> int:
@@ -109,27 +115,40 @@ def compile_(
     and --strict is given.
     """
     files = [*outputs, *([report] if report else [])]
-    body = load_body(rig)
+    watch = Profile()
+    with watch.stage("importing numpy"):
+        import numpy  # noqa: F401 - for what loading it takes
+    with watch.stage("loading the body"):
+        body = load_body(rig)
     try:
         check_outputs(files)
-        text = Text.read(file, expression, utterance, libraries)
-        score = text.score(dominant)
+        with watch.stage("importing the language"):
+            import azee.lang.program  # noqa: F401 - the same
+        with watch.stage("parsing"):
+            text = Text.read(file, expression, utterance, libraries)
+        with watch.stage("evaluating"):
+            score = text.score(dominant)
         with working("Solving …", quiet=quiet or form == "json") as progress:
-            _prepare(progress)
-            made = perform(
-                score,
-                body,
-                dominant=dominant,
-                fps=fps,
-                mode=mode,
-                life=not no_life,
-                solver=solver,
-            )
+            with progress.patience(PATIENCE):
+                watch.load_solver()
+            with watch.stage("making the movement"):
+                made = perform(
+                    score,
+                    body,
+                    dominant=dominant,
+                    fps=fps,
+                    mode=mode,
+                    life=not no_life,
+                    solver=solver,
+                )
+            watch.split(made.report)
             for path in outputs:
                 progress.now(f"Writing {path} …")
-                made.save(path)
+                with watch.stage(f"writing {path.name}"):
+                    made.save(path)
         if report:
-            made.save_report(report)
+            with watch.stage(f"writing {report.name}"):
+                made.save_report(report)
     except AZeeError as error:
         if form != "json":
             raise
@@ -141,15 +160,12 @@ def compile_(
                 "diagnostics": as_json(text.warnings),
                 "outputs": [str(path) for path in outputs],
                 "report": made.report.as_json(),
+                **({"profile": watch.as_json()} if profile else {}),
             }
         )
     else:
         show(text.warnings)
         news(outcome(made, files), quiet=quiet)
+        if profile:
+            watch.show()
     return MISSED if strict and not made.report.met else DONE
-
-
-def _prepare(progress: Progress) -> None:
-    """Load the solver, whose kernels are compiled when it is used for the first time."""
-    with progress.patience("Preparing the solver: the first run after installing takes longer …"):
-        import azee.motion.animate  # noqa: F401 - for what loading it does

@@ -19,7 +19,8 @@ class ProblemReport:
     constraints: indices of its demands, as given. chain: AZee bones from the root to its end.
     merged_into: name of the problem that it was solved together with, the first of its group;
     none for that one and for a problem solved alone. moved: parts of the body that were free.
-    iterations: rounds of the two-level method; none where another solved it.
+    iterations: rounds of the two-level method; none where another solved it. solve_s: wall-clock
+    time that it took, with those merged into it; it differs from run to run.
     """
 
     name: str
@@ -28,6 +29,7 @@ class ProblemReport:
     merged_into: str | None
     moved: tuple[str, ...]
     iterations: int | None = None
+    solve_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +58,7 @@ class SolveReport:
     constraints: those that joints can meet, in the order of the demands. penetration: capsules
     that overlap beyond meant contacts, deepest first. reached: coordinates that the constraints
     may move. solve_s, explain_s: wall-clock time of finding the posture, and of finding out why
-    some constraints miss; nothing else differs from run to run.
+    some constraints miss; no other than times differs from run to run.
     """
 
     coordinates: NDArray[np.float64]

@@ -103,6 +103,8 @@ class _Moment:
         builder = ProblemBuilder(demands, evaluator.binding, self.body.anatomy)
         self.problems: tuple[Problem, ...] = builder.build()
         self.footprints = builder.footprints
+        self.spent_s: dict[tuple[int, ...], float] = {}
+        """Time that groups have taken, by their problems."""
 
     # Solving ----------------------------------------------------------------------------------
 
@@ -142,6 +144,7 @@ class _Moment:
         results = []
         for n, group in enumerate(groups):
             unsettled = frozenset().union(*(g.free for g in groups[n + 1 :]))
+            began = time.perf_counter()
             result = self._standing(group, q, before)
             if result is None:
                 first = [self.start] if before is None else [before.q, self.start]
@@ -151,6 +154,8 @@ class _Moment:
             q = q.copy()
             q[sorted(group.free)] = result.q[sorted(group.free)]
             results.append(result)
+            spent_s = self.spent_s.get(group.problems, 0.0) + time.perf_counter() - began
+            self.spent_s[group.problems] = spent_s
         return _State(q, tuple(groups), tuple(results))
 
     def _standing(self, group: Group, q: Array, before: _State | None) -> Result | None:
@@ -328,4 +333,5 @@ class _Moment:
             problem.chain,
             self.problems[first].name if first != p else None,
             tuple(part.value for part in Part if part in moved),
+            solve_s=self.spent_s[group.problems] if first == p else 0.0,
         )

@@ -15,7 +15,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -70,8 +69,13 @@ def solve_two_level(
     """
     began = time.perf_counter()
     keyframe = _Keyframe(rig, demands, dominant, start, reference, fixed)
-    iterations = [keyframe.iterate(problem) for problem in keyframe.problems]
-    return keyframe.report(iterations, began)
+    reports = []
+    for problem, chain in zip(keyframe.problems, keyframe.chains, strict=True):
+        started = time.perf_counter()
+        iterations = keyframe.iterate(problem, chain)
+        spent_s = time.perf_counter() - started
+        reports.append(keyframe.problem_report(problem, chain, iterations, spent_s))
+    return keyframe.report(reports, began)
 
 
 class _Keyframe:
@@ -117,9 +121,8 @@ class _Keyframe:
                 placed |= own
         return chains
 
-    def iterate(self, problem: Problem) -> int:
+    def iterate(self, problem: Problem, chain: frozenset[int]) -> int:
         """Solve one problem and return how many rounds that took (listing 1)."""
-        chain = self.chains[self.problems.index(problem)]
         for iteration in range(1, MAX_ITERATIONS):
             self._round(problem, chain)
             if all(self._offset(i) < 1.0 for i in problem.demands):
@@ -154,31 +157,34 @@ class _Keyframe:
         )
         return float(residual), unit
 
-    def report(self, iterations: Sequence[int], began: float) -> SolveReport:
+    def problem_report(
+        self, problem: Problem, chain: frozenset[int], iterations: int, spent_s: float
+    ) -> ProblemReport:
+        """Report what came of one problem."""
+        parts = {self.body.anatomy.parts[v] for v in chain}
+        moved = tuple(part.value for part in Part if part in parts)
+        return ProblemReport(
+            problem.name,
+            problem.demands,
+            problem.chain,
+            None,
+            moved,
+            iterations=iterations,
+            solve_s=spent_s,
+        )
+
+    def report(self, problems: Sequence[ProblemReport], began: float) -> SolveReport:
         """Measure everything on the final posture."""
         self.q.setflags(write=False)
         return SolveReport(
             self.q,
-            tuple(
-                self._problem_report(problem, chain, count)
-                for problem, chain, count in zip(
-                    self.problems, self.chains, iterations, strict=True
-                )
-            ),
+            tuple(problems),
             tuple(self._constraint_reports()),
             self.body.obstacles.overlaps(self.rig.chain.frames(self.q)),
             self.body.evaluations,
             time.perf_counter() - began,
             frozenset(self.presets).union(*self.chains) - self.fixed,
         )
-
-    def _problem_report(
-        self, problem: Problem, chain: frozenset[int], iterations: int
-    ) -> ProblemReport:
-        parts = {self.body.anatomy.parts[v] for v in chain}
-        moved = tuple(part.value for part in Part if part in parts)
-        report = ProblemReport(problem.name, problem.demands, problem.chain, None, moved)
-        return replace(report, iterations=iterations)
 
     def _constraint_reports(self) -> list[ConstraintReport]:
         binding = self.body.evaluator.binding

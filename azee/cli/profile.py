@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -56,7 +57,7 @@ class Profile:
     def load_solver(self) -> None:
         """Import what solving needs, a stage for each part."""
         for module, name in SOLVER_STEPS:
-            with self.stage(name):
+            with self.stage(name), _without_scipy():
                 import_module(module)
 
     def split(self, report: MotionReport) -> None:
@@ -100,6 +101,23 @@ class Profile:
             for stage in self.all_stages()
         ]
         return {"total_s": self.total_s, "stages": stages}
+
+
+@contextmanager
+def _without_scipy() -> Iterator[None]:
+    """Hide scipy from numba, which looks for a BLAS in it that no kernel of ours calls.
+
+    Importing it takes a tenth of the whole command. Only a command does this: in its own process
+    no other compiled code can miss linear algebra.
+    """
+    if "scipy" in sys.modules:
+        yield
+        return
+    sys.modules["scipy"] = None  # type: ignore[assignment]
+    try:
+        yield
+    finally:
+        del sys.modules["scipy"]
 
 
 def _groups(problems: Sequence[ProblemReport]) -> Iterator[tuple[str, float]]:

@@ -30,6 +30,9 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("fmt", "--check", "text.azee"): {"lark"},
     ("score", "text.azee"): {"lark"},
     ("score", "text.azee", "-o", "score.svg"): {"lark"},
+    ("compile", "--quiet", "text.azee", "-o", "a.json", "-o", "a.glb", "-o", "a.bvh"): {
+        *("lark", "nlopt", "numba", "numpy")
+    },
 }
 """Of the heavy packages, those that a command may load."""
 

@@ -116,14 +116,12 @@ def compile_(
     """
     files = [*outputs, *([report] if report else [])]
     watch = Profile()
-    with watch.stage("importing numpy"):
-        import numpy  # noqa: F401 - for what loading it takes
+    watch.load("numpy", "importing numpy")
     with watch.stage("loading the body"):
         body = load_body(rig)
     try:
         check_outputs(files)
-        with watch.stage("importing the language"):
-            import azee.lang.program  # noqa: F401 - the same
+        watch.load("azee.lang.program", "importing the language")
         with watch.stage("parsing"):
             text = Text.read(file, expression, utterance, libraries)
         with watch.stage("evaluating"):

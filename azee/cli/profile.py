@@ -54,11 +54,16 @@ class Profile:
         finally:
             self.stages.append(Stage(name, time.perf_counter() - began))
 
+    def load(self, module: str, name: str) -> None:
+        """Import a module, as a stage."""
+        with self.stage(name):
+            import_module(module)
+
     def load_solver(self) -> None:
         """Import what solving needs, a stage for each part."""
-        for module, name in SOLVER_STEPS:
-            with self.stage(name), _without_scipy():
-                import_module(module)
+        with _without_scipy():
+            for module, name in SOLVER_STEPS:
+                self.load(module, name)
 
     def split(self, report: MotionReport) -> None:
         """Divide the last stage, which made a movement, into solving and the rest."""

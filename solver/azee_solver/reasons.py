@@ -102,7 +102,7 @@ class Diagnosis:
         frames = self.firm.frames(self.q)
         aim = self.firm.evaluator.target(constraint, frames, self.demands[i].phase)
         free = self._free([i])
-        length = float(np.linalg.norm(site.position))
+        length = float(sum(map(np.linalg.norm, (site.position, *(s.vector for s in site.shares)))))
         node = site.node
         while True:
             parent = int(chain.parents[node])

@@ -236,7 +236,17 @@ class Tape:
     def site(self, site: Site, distance: float = 0.0) -> int:
         """Entry of a site, or of the point so many metres outwards of it. Raises BindingError."""
         bound = self.binding.site(site)
-        return self.node_point(bound.node, bound.position + distance * bound.normal)
+        if not bound.shares:
+            return self.node_point(bound.node, bound.position + distance * bound.normal)
+        point = self.node_point(bound.node, bound.position)
+        for share in bound.shares:
+            point = self.combine(point, 1.0, self.node_vector(share.node, share.vector), 1.0)
+        if distance:
+            normal = self.node_vector(bound.node, bound.normal)
+            for share in bound.shares:
+                normal = self.combine(normal, 1.0, self.node_vector(share.node, share.normal), 1.0)
+            point = self.combine(point, 1.0, self.unit(normal), distance)
+        return point
 
     def joint(self, bone: Bone) -> int:
         """Entry of a bone's proximal end. Raises BindingError."""

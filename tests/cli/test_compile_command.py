@@ -75,8 +75,7 @@ def test_the_body_does_what_the_text_says() -> None:
     frames = rig.chain.frames(clip.coordinates[middle])
 
     def world(site: str) -> Any:
-        found = rig.sites[site]
-        return frames.positions[found.node] + frames.rotations[found.node] @ found.position
+        return rig.sites[site].point(frames)
 
     assert np.linalg.norm(world("I_TIP_R") - world("CH")) < 1e-3
     np.testing.assert_allclose(_clip("touch.json")["times"], clip.times, atol=1e-6)

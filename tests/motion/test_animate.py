@@ -92,9 +92,7 @@ def results(animation: Animation) -> dict[str, ConstraintResult]:
 
 def tip_track(animation: Animation, site: str = "I_TIP_R") -> np.ndarray:
     frames = rig().chain.frames(animation.clip.coordinates)
-    found = rig().sites[site]
-    R = frames.rotations[:, found.node]
-    return np.asarray(frames.positions[:, found.node] + R @ found.position)
+    return rig().sites[site].point(frames)
 
 
 def frame_at(animation: Animation, score_s: float) -> int:

@@ -18,8 +18,7 @@ RECARRIED = {"T_NA": "thumb_{S}_3", "T_PAD": "thumb_{S}_3"}
 
 def place(rig: Rig, q: Floats, name: str) -> tuple[Floats, Floats]:
     site, frames = rig.sites[name], rig.chain.frames(q)
-    R = frames.rotations[site.node]
-    return frames.positions[site.node] + R @ site.position, R @ site.normal
+    return site.point(frames), site.outward(frames)
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from typing import Any
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from azee_rig.chain import Chain
 from azee_rig.coordinates import Coordinates
-from azee_rig.rig import BoneNodes, Capsules, Landmarks, Rig, RigSite
+from azee_rig.rig import BoneNodes, Capsules, Landmarks, Rig, RigSite, SiteShare
 
 Array = NDArray[np.float64]
 LEFT = np.array([1.0, 0.0, 0.0])
@@ -205,6 +205,11 @@ def _sites(chain: Chain) -> dict[str, RigSite]:
         add(f"H_BACK_{side}", f"palm_{side}", [0.0, 0.05, -0.02], [0.0, 0.0, -1.0])
         add(f"EL_{side}", f"arm_{side}", [0.0, 0.3, -0.04], [0.0, 0.0, -1.0])
         add(f"SH_{side}", f"arm_{side}", [0.0, 0.0, 0.05], [0.0, 0.0, 1.0])
+        # Rides on two limbs, as skin in the crease of an elbow does.
+        add(f"ELi_{side}", f"arm_{side}", [0.0, 0.29, 0.02], [0.0, 0.1, 0.7])
+        fore = chain.names.index(f"f_arm_{side}")
+        share = SiteShare(fore, np.array([0.01, 0.02, 0.02]), np.array([0.1, -0.1, 0.6]))
+        sites[f"ELi_{side}"] = replace(sites[f"ELi_{side}"], shares=(share,))
         for finger in FINGERS:
             node = f"{finger}_{side}_3"
             add(f"{finger[0].upper()}_TIP_{side}", node, [0.0, 0.03, 0.0], [0.0, 1.0, 0.0])

@@ -61,6 +61,8 @@ S, W = Side.STRONG, Side.WEAK
 UP = Vec(0.0, 1.0, 0.0)
 PALM_S, PALM_W, HEAD = Bone("palm", S), Bone("palm", W), Bone("head")
 TIP_S, TIP_W = SitePoint(Site("I_TIP", S)), SitePoint(Site("I_TIP", W))
+CREASE_W = SitePoint(Site("ELi", W))
+"""A site that rides on two nodes."""
 
 VECTORS: list[Vector] = [
     UP,
@@ -81,6 +83,7 @@ POINTS: list[Point] = [
     FreePoint(0.1, -0.2, 0.3),
     NamedPoint(SigningSpace.SSSP),
     TIP_W,
+    CREASE_W,
     JointPoint(HEAD),
     JointPoint(Bone("back_1")),
     VTranslate(TIP_W, Scale(Dir(PALM_W), 0.05)),
@@ -174,6 +177,13 @@ def test_gradient_of_places(expr: Point, kind: int) -> None:
     check_gradient(case.program([row]), case.q)
 
 
+@pytest.mark.parametrize("distance", [0.0, 0.1])
+def test_gradient_of_a_site_that_rides_on_two_nodes(distance: float) -> None:
+    case = Case(8)
+    tip, crease = case.tape.site(Site("I_TIP", S)), case.tape.site(Site("ELi", W), distance)
+    check_gradient(case.program([Row(kernels.MEET, tip, crease, 2.0)]), case.q)
+
+
 def test_gradient_of_rotations_and_gaze() -> None:
     case = Case(3)
     rows = []
@@ -253,6 +263,7 @@ def test_a_tape_gives_the_evaluator_s_points(expr: Point) -> None:
         Place(Site("I_TIP", S), FreePoint(0.1, -0.2, 0.3)),
         Place(Site("I_TIP", S), FreePoint(0.1, -0.2, 0.3), 0.2),
         Place(Site("I_TIP", S), TIP_W, 0.1),
+        Place(Site("I_TIP", S), CREASE_W, 0.1),
         Orient(BoneAxis.DIR, PALM_S, Relation.ALONG, VECTORS[5]),
         Orient(BoneAxis.NRM, PALM_S, Relation.ACROSS, VECTORS[6]),
         Rotate(HEAD, Vec(1.0, 0.5, 0.0), 0.4),

@@ -46,8 +46,7 @@ def missed(report: SolveReport) -> list[tuple[str, float, str | None]]:
 
 
 def site(rig: Rig, report: SolveReport, name: str) -> NDArray[np.float64]:
-    frames, found = rig.chain.frames(report.coordinates), rig.sites[name]
-    return np.asarray(frames.positions[found.node] + frames.rotations[found.node] @ found.position)
+    return rig.sites[name].point(rig.chain.frames(report.coordinates))
 
 
 def axis(rig: Rig, report: SolveReport, bone: str, column: int) -> NDArray[np.float64]:

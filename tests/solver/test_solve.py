@@ -241,7 +241,7 @@ def test_out_of_reach_is_the_nearest_pose_and_says_by_how_much() -> None:
     assert float(by) == pytest.approx(1000 * miss.residual, abs=0.5)
     tip = RIG.sites["I_TIP_R"]
     frames = RIG.chain.frames(report.coordinates)
-    at = frames.positions[tip.node] + frames.rotations[tip.node] @ tip.position
+    at = tip.point(frames)
     shoulder = frames.positions[RIG.bones["arm_R"].node]
     aim = np.array([-0.3, 1.45, 3.0]) - shoulder
     stretched = (at - shoulder) @ aim / np.linalg.norm(at - shoulder) / np.linalg.norm(aim)
@@ -343,7 +343,7 @@ def test_what_a_posture_reaches_is_reached_again(seed: int) -> None:
     q[ARM] = (RIG.coordinates.lower + random.uniform(0.1, 0.9, len(q)) * span)[ARM]
     frames = RIG.chain.frames(q)
     site, palm = RIG.sites["PA_R"], RIG.bones["palm_R"].node
-    at = frames.positions[site.node] + frames.rotations[site.node] @ site.position
+    at = site.point(frames)
     direction = frames.rotations[palm][:, 1]
     report = run(
         Place(Site("PA", S), WorldPoint(*at)),

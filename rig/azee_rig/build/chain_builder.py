@@ -15,8 +15,12 @@ node's frame has columns x, dir, nrm with x = dir × nrm; dir runs from proximal
 | thumb | pad; ulnar at zero | flexion about x, abduction about nrm, roll about dir; flexion |
 | eye | up | yaw about nrm, pitch about x |
 
-Turns about dir and nrm change sign on the right, except those of the eyes. Beside these,
-`elbow` and `carpus` bend by half as much as f_arm and palm and carry the skin in the crease.
+Turns about dir and nrm change sign on the right, except those of the eyes.
+
+Skin near a joint turns by a part of what the joint does. For the sites that ride on it there are
+nodes beside the bones' own: `deltoid`, `elbow` and `carpus` bend by half as much as arm, f_arm and
+palm; `shoulder` and `cubitus` bend like arm and f_arm but leave out the turn about the limb's
+axis, and `upperarm` and `forearm` take half of it.
 
 A raised arm lifts its shoulder: abduction and flexion of the arm turn the clavicle up by a share
 each, and the arm turns back by as much, so that the direction of the arm itself does not change
@@ -27,6 +31,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -204,6 +209,10 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     ]
     R = made.node(arm, clav, shoulder, clav_zero.T @ hanging, turns)
     made.bone(arm, [arm])
+    beside = partial(made.node, parent=clav, place=shoulder, zero=clav_zero.T @ hanging)
+    beside(f"deltoid_{side}", turns=_share(turns[:-1], 0.5))
+    beside(f"shoulder_{side}", turns=turns[:-1])
+    beside(f"upperarm_{side}", turns=[*turns[:-1], *_share(turns[-1:], 0.5)])
 
     palm_frame = _palm_frame(anatomy, side, sign)
     medial = np.stack([-sign * NRM_AXIS, DIR_AXIS, sign * X_AXIS], axis=1)
@@ -217,8 +226,10 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     R = made.node(f_arm, arm, elbow, medial, turns)
     made.bone(f_arm, [f_arm])
 
-    halfway = [(NRM, 0.5 * sign, f"{f_arm}.flexion")]
-    made.node(f"elbow_{side}", arm, elbow, medial, halfway)
+    beside = partial(made.node, parent=arm, place=elbow, zero=medial)
+    beside(f"elbow_{side}", turns=_share(turns[:1], 0.5))
+    beside(f"cubitus_{side}", turns=turns[:1])
+    beside(f"forearm_{side}", turns=[turns[0], *_share(turns[1:], 0.5)])
 
     a, b, rest = _turn_angles(R.T @ palm_frame, X, NRM, DIR)
     _expect_small(rest, palm)
@@ -226,8 +237,11 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     turns = [(X, 1.0, f"{palm}.flexion"), (NRM, sign, f"{palm}.deviation")]
     made.node(palm, f_arm, wrist, np.eye(3), turns)
     made.bone(palm, [palm])
-    halfway = [(axis, 0.5 * share, name) for axis, share, name in turns]
-    made.node(f"carpus_{side}", f_arm, wrist, np.eye(3), halfway)
+    made.node(f"carpus_{side}", f_arm, wrist, np.eye(3), _share(turns, 0.5))
+
+
+def _share(turns: Sequence[Turn], part: float) -> list[Turn]:
+    return [(axis, part * scale, coordinate) for axis, scale, coordinate in turns]
 
 
 X_AXIS, DIR_AXIS, NRM_AXIS = np.eye(3)

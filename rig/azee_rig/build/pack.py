@@ -125,6 +125,14 @@ def write_rig(path: Path, rig: Rig) -> None:
                 "node": s.node,
                 "position_m": _plain(s.position, MEASURED),
                 "normal": _plain(s.normal, MEASURED),
+                "shares": [
+                    {
+                        "node": share.node,
+                        "vector_m": _plain(share.vector, MEASURED),
+                        "normal": _plain(share.normal, MEASURED),
+                    }
+                    for share in s.shares
+                ],
             }
             for s in rig.sites.values()
         ],

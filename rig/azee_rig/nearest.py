@@ -1,0 +1,67 @@
+"""The points of a surface that are nearest to given points, exactly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Nearest:
+    """For each of n points the nearest one of the surface, (n, 3), its triangle and distance."""
+
+    points: Floats
+    triangles: Ints
+    distances: Floats
+
+
+def nearest(vertices: Floats, triangles: Ints, points: Floats) -> Nearest:
+    """Find the nearest points of triangles (F, 3) on vertices (N, 3) to points (n, 3).
+
+    A triangle lies within a ball about its middle; only those are tried whose ball begins before
+    that of some other triangle ends.
+    """
+    corners = vertices[triangles]
+    middles = corners.mean(axis=1)
+    radii = np.linalg.norm(corners - middles[:, None], axis=2).max(axis=1)
+    found = np.empty((len(points), 3))
+    which = np.empty(len(points), dtype=np.int64)
+    distances = np.empty(len(points))
+    for i, point in enumerate(points):
+        away = np.linalg.norm(middles - point, axis=1)
+        tried = np.flatnonzero(away - radii <= (away + radii).min())
+        on = closest_on_triangles(corners[tried], point)
+        lengths = np.linalg.norm(on - point, axis=1)
+        best = int(lengths.argmin())
+        found[i], which[i], distances[i] = on[best], tried[best], lengths[best]
+    return Nearest(found, which, distances)
+
+
+def closest_on_triangles(corners: Floats, point: Floats) -> Floats:
+    """Return the point of each triangle (n, 3, 3) that is nearest to a point (3,), (n, 3).
+
+    The foot of the perpendicular where it falls inside, else the nearest point of the edges.
+    """
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    normal = np.cross(b - a, c - a)
+    square = np.sum(normal * normal, axis=1)
+    flat = square <= 0.0
+    height = np.sum((point - a) * normal, axis=1) / np.where(flat, 1.0, square)
+    foot = point - height[:, None] * normal
+    inside = ~flat
+    best, least = np.empty_like(a), np.full(len(a), np.inf)
+    for start, end in ((a, b), (b, c), (c, a)):
+        edge = end - start
+        inside &= np.sum(np.cross(edge, foot - start) * normal, axis=1) >= 0.0
+        length = np.sum(edge * edge, axis=1)
+        along = np.sum((point - start) * edge, axis=1) / np.where(length > 0.0, length, 1.0)
+        on = start + np.clip(along, 0.0, 1.0)[:, None] * edge
+        off = np.linalg.norm(on - point, axis=1)
+        nearer = off < least
+        best[nearer], least = on[nearer], np.minimum(off, least)
+    return np.where(inside[:, None], foot, best)

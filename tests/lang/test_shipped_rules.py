@@ -9,7 +9,7 @@ from evaluations import constraints, group, problems, program, times, value
 
 from azee.lang.library import shipped_library
 from azee.lang.rule import Rule
-from azee.lang.values import ConstraintsValue, ScoreValue
+from azee.lang.values import ConstraintsValue, ListValue, ScoreValue
 from azee.score.score import Group, Key, leaves
 from azee_grammar.library import shipped_names
 from azee_solver.constraint import LookAt, Morph, Place, Rotate
@@ -59,7 +59,7 @@ def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     assert rule.entry("source")
     text = _application(rule)
     found = value(text)
-    assert isinstance(found, ScoreValue | ConstraintsValue)
+    assert isinstance(found, ScoreValue | ConstraintsValue | ListValue)
     if isinstance(found, ScoreValue):
         assert problems(text) == []
         assert program(text).check(Side.LEFT) == ()

@@ -97,8 +97,9 @@ def filming() -> Iterator[None]:
 
 def _svg(made: Compilation, path: Path) -> None:
     from azee.export.score_svg import write_svg
+    from azee.export.track_rows import track_rows
 
-    write_svg(made.score, path)
+    write_svg(made.score, path, track_rows(made.animation.tracks))
 
 
 def _png(made: Compilation, path: Path) -> None:

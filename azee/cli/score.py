@@ -1,43 +1,87 @@
-"""`azee score`: the nested score of a text, as a tree or as a picture."""
+"""`azee score`: the nested score of a text, as a tree, a picture or an ELAN file."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+from azee.cli.console import working
 from azee.cli.outputs import check_outputs, with_suffix
-from azee.cli.text import Text, text_options
+from azee.cli.text import Text, dominant_option, text_options
 from azee.formats import writing
+
+if TYPE_CHECKING:
+    from azee.compilation import Hand
+    from azee.motion.tracks import Track
+    from azee.score.score import Score
 
 
 @click.command(short_help="The nested score of a text.")
 @text_options
 @click.option(
     "-o",
-    "output",
-    metavar="OUT.svg",
+    "outputs",
+    metavar="OUT",
+    multiple=True,
     type=click.Path(path_type=Path),
-    callback=with_suffix(".svg"),
-    help="Draw it into a file instead, nested and flattened.",
+    callback=with_suffix(".svg", ".png"),
+    help="Draw it into a file instead (.svg .png), nested and flattened; repeatable.",
 )
+@click.option(
+    "--tracks",
+    is_flag=True,
+    help="Solve it, and draw which block keys which part of the body, and when.",
+)
+@click.option(
+    "--rig", metavar="R", default="signer", show_default=True, help="The body of --tracks."
+)
+@dominant_option
 def score(
     file: str | None,
     expression: str | None,
     utterance: int | None,
     libraries: Sequence[Path],
-    output: Path | None,
+    outputs: Sequence[Path],
+    tracks: bool,
+    rig: str,
+    dominant: Hand,
 ) -> None:
     """Print the score of FILE (`-` is standard input): times, blocks and constraints."""
-    from azee.export.score_svg import write_svg
     from azee.export.score_text import tree
 
-    if output:
-        check_outputs([output])
-    found = Text.read(file, expression, utterance, libraries).score()
-    if output:
-        with writing(output):
-            write_svg(found, output)
-    else:
+    if tracks and not outputs:
+        raise click.UsageError("--tracks is drawn: name a picture with -o")
+    check_outputs(outputs)
+    found = Text.read(file, expression, utterance, libraries).score(dominant)
+    if not outputs:
         click.echo(tree(found), nl=False)
+        return
+    keyed = _tracks(found, rig, dominant) if tracks else ()
+    for path in outputs:
+        with writing(path):
+            _write(found, path, keyed)
+
+
+def _write(found: Score, path: Path, keyed: Sequence[Track]) -> None:
+    from azee.export.track_rows import track_rows
+
+    if path.suffix.lower() == ".svg":
+        from azee.export.score_svg import write_svg
+
+        write_svg(found, path, track_rows(keyed))
+    else:
+        from azee.export.score_png import write_score_png
+
+        write_score_png(found, path, track_rows(keyed))
+
+
+def _tracks(found: Score, rig: str, dominant: Hand) -> Sequence[Track]:
+    from azee.cli.body import load_body
+    from azee.compilation import perform
+
+    body = load_body(rig)
+    with working("Solving …"):
+        return perform(found, body, dominant=dominant, life=False).animation.tracks

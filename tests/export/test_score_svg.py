@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
 
+from azee.cli.main import run
+from azee.export.score_drawing import score_drawing
 from azee.export.score_layout import Box, boundaries, flattened, lanes, nested
+from azee.export.score_png import score_image
 from azee.export.score_svg import draw
+from azee.export.shapes import Rect, Told
+from azee.export.track_rows import track_rows
+from azee.motion.tracks import Track
 from azee.score.interval import Interval
 from azee.score.score import Arrangement, Blank, Block, Call, Group, Hold, Key, Score, leaves
 from azee_solver.constraint import BoneAxis, Orient, Place, Relation
@@ -172,3 +180,71 @@ def test_lanes_are_as_few_as_they_can_be() -> None:
 
 def test_the_same_score_gives_the_same_bytes(not_but: Group) -> None:
     assert draw(not_but) == draw(not_but)
+
+
+def _track(path: str, coordinates: str, keys: list[float], start: float, end: float) -> Track:
+    return Track(tuple(path.split("/")), tuple(coordinates.split()), tuple(keys), start, end)
+
+
+@pytest.fixture
+def tracks() -> list[Track]:
+    return [
+        _track("X", "back_1.flexion arm_R.flexion index_R_1.flexion", [0.0, 0.5, 1.0], 0.0, 1.0),
+        _track("headshake/R", "head.axial", [1.2, 1.4], 1.2, 1.4),
+        _track("Y", "arm_R.flexion f_arm_R.flexion", [2.0, 3.0], 0.9, 3.0),
+    ]
+
+
+def test_tracks_are_rows_by_part_of_the_body_with_a_mark_at_each_key(
+    not_but: Group, tracks: list[Track]
+) -> None:
+    rows = track_rows(tracks)
+    assert [row.name for row in rows] == ["trunk", "head", "right arm", "right fingers"]
+    assert [[bar.name for bar in lane] for lane in rows[2].lanes] == [["X"], ["Y"]], "they overlap"
+    document = ElementTree.fromstring(draw(not_but, rows))
+    marks = document.findall(".//svg:line[@class='mark']", NAMESPACE)
+    assert len(marks) == 3 * 3 + 2 + 2
+    bars = document.findall(".//svg:rect[@class='track']", NAMESPACE)
+    ticks = {t.text: float(t.get("x", "")) for t in document.iterfind(".//svg:text", NAMESPACE)}
+    per_second = (ticks["3 s"] - ticks["0 s"]) / 3
+    spans = {
+        (
+            round((float(bar.get("x", "")) - ticks["0 s"]) / per_second, 1),
+            round(float(bar.get("width", "")) / per_second, 1),
+        )
+        for bar in bars
+    }
+    assert {(0.0, 1.0), (1.2, 0.2), (0.9, 2.1)} <= spans
+    assert "Tracks" not in _texts(draw(not_but))
+
+
+def test_the_png_shows_what_the_svg_shows(not_but: Group, tracks: list[Track]) -> None:
+    rows = track_rows(tracks)
+    drawing = score_drawing(not_but, rows)
+    image = score_image(not_but, rows).convert("RGB")
+    assert image.size == (round(2 * drawing.width), round(2 * drawing.height))
+    assert image.tobytes() == score_image(not_but, rows).convert("RGB").tobytes()
+    (shake,) = (
+        shape
+        for told in drawing.shapes
+        if isinstance(told, Told) and told.tip.startswith("head: headshake › R")
+        for shape in told.shapes
+        if isinstance(shape, Rect)
+    )
+    middle = int(2 * shake.x + shake.width), int(2 * shake.y + shake.height)
+    assert image.getpixel(middle) == (0xD9, 0xE5, 0xF2)
+    assert image.getpixel((2, 2)) == (255, 255, 255)
+
+
+def test_the_command_draws_tracks_when_it_is_asked_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = ["-e", "key 1 (look ^fwd)"]
+    assert run(["score", *text, "-o", "a.svg", "-o", "a.png"]) == 0
+    assert run(["score", *text, "-o", "b.svg", "--tracks"]) == 0
+    assert run(["score", *text, "--tracks"]) == 2
+    with Image.open("a.png") as picture:
+        assert picture.width > 500
+    assert "Tracks" not in _texts(Path("a.svg").read_text(encoding="utf-8"))
+    assert {"Tracks", "eyes"} <= set(_texts(Path("b.svg").read_text(encoding="utf-8")))

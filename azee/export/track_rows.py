@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -10,6 +11,8 @@ if TYPE_CHECKING:
     from azee.motion.tracks import Track
 
 SIDES = {"L": "left", "R": "right"}
+_FINGER = re.compile("(?:thumb|index|middle|ring|little)_")
+"""The fingers of a hand share a row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +49,8 @@ def track_rows(tracks: Sequence[Track]) -> tuple[Row, ...]:
     for track in tracks:
         parts: dict[str, list[str]] = {}
         for coordinate in track.coordinates:
-            parts.setdefault(limb_of_coordinate(coordinate), []).append(coordinate)
+            part = _FINGER.sub("fingers_", limb_of_coordinate(coordinate))
+            parts.setdefault(part, []).append(coordinate)
         for part, coordinates in parts.items():
             bar = Bar(track.path, track.start_s, track.end_s, track.keys_s, tuple(coordinates))
             bars.setdefault(part, []).append(bar)

@@ -25,33 +25,57 @@ SITE_VIEWS: Mapping[str, Sequence[str]] = {
     "hand": tuple(f"right hand {side}" for side in ("palm", "back", "thumb", "little", "tips")),
 }
 """Views that share the sites of a region among them: each is labelled where it is seen best."""
+HAND_UP: Mapping[str, float] = {
+    "arm_R.flexion": 40.0,
+    "arm_R.abduction": 8.0,
+    "arm_R.rotation": 0.0,
+    "f_arm_R.flexion": 132.0,
+    "f_arm_R.pronation": 75.0,
+    "palm_R.flexion": 0.0,
+    "palm_R.deviation": 0.0,
+    "index_R_1.deviation": 16.0,
+    "middle_R_1.deviation": 0.0,
+    "ring_R_1.deviation": -16.0,
+    "little_R_1.deviation": -36.0,
+}
+"""Degrees."""
 
 
 def site_sheet(rig: Rig) -> Image.Image:
-    """Show every site as a labelled dot, but those of the left hand, which mirror the right's.
+    """Show every site as a labelled dot, but those of the left hand, which mirror the right's."""
+    return contact_sheet([panel for region in SITE_VIEWS for panel in site_panels(rig, region)], 4)
 
-    The body stands in the mesh's own posture. Rings are sites that no view sees, as under an arm.
+
+def site_panels(rig: Rig, region: str) -> list[tuple[str, Image.Image]]:
+    """Show the sites of a region of SITE_VIEWS; rings are those that no view sees.
+
+    Body and head stand in the mesh's own posture, the right hand is held up, fingers apart.
     """
-    q = rig.coordinates.bind
+    q = np.array(rig.coordinates.bind)
+    if region == "hand":
+        for name, degrees in HAND_UP.items():
+            i = rig.coordinates.index[name]
+            q[i] = np.clip(np.radians(degrees), rig.coordinates.lower[i], rig.coordinates.upper[i])
     frames, vertices = rig.chain.frames(q), rig.skin(rig.pose(q))
-    regions: dict[str, list[Mark]] = {region: [] for region in SITE_VIEWS}
-    for name, site in rig.sites.items():
-        region = "hand" if site.bone.startswith(HAND) else _axial_region(site.bone)
-        if region != "hand" or "_R" in site.bone:
-            mark = Mark(name, site.point(frames), site.outward(frames))
-            regions[region].append(mark)
+    marks = [
+        Mark(name, site.point(frames), site.outward(frames))
+        for name, site in rig.sites.items()
+        if _region(site.bone) == region
+    ]
+    views = SITE_VIEWS[region]
+    shown = [View(vertices, rig.mesh, camera(rig, q, view), (460, 560)) for view in views]
+    best = np.argmax([view.shown(marks) for view in shown], axis=0)
     panels = []
-    for region, names in SITE_VIEWS.items():
-        views = [View(vertices, rig.mesh, camera(rig, q, name), (460, 560)) for name in names]
-        marks = regions[region]
-        best = np.argmax([view.shown(marks) for view in views], axis=0)
-        for k, (name, view) in enumerate(zip(names, views, strict=True)):
-            own = [mark for mark, b in zip(marks, best, strict=True) if b == k]
-            panels.append((f"{name} ({len(own)} sites)", view.drawn(own)))
-    return contact_sheet(panels, 4)
+    for k, (name, view) in enumerate(zip(views, shown, strict=True)):
+        own = [mark for mark, b in zip(marks, best, strict=True) if b == k]
+        panels.append((f"{name} ({len(own)} sites)", view.drawn(own)))
+    return panels
 
 
-def _axial_region(bone: str) -> str:
+def _region(bone: str) -> str:
+    """Region of SITE_VIEWS that a bone's sites are shown in; none for the left hand's."""
+    if bone.startswith(HAND):
+        return "hand" if "_R" in bone else ""
     return "head" if bone.startswith(("head", "eye", "neck")) else "body"
 
 

@@ -11,6 +11,7 @@ coordinate may drive several nodes (the trunk's are spread over the spine), with
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,26 +64,59 @@ class Chain:
         batch, count = q.shape[:-1], len(self.names)
         positions = np.empty((*batch, count, 3))
         rotations = np.empty((*batch, count, 3, 3))
-        for b in range(count):
-            p = self.parents[b]
-            if p < 0:
-                R = np.broadcast_to(self.zero[b], (*batch, 3, 3)).copy()
-                positions[..., b, :] = self.offsets[b]
-            else:
-                positions[..., b, :] = (
-                    positions[..., p, :] + rotations[..., p, :, :] @ self.offsets[b]
-                )
-                R = rotations[..., p, :, :] @ self.zero[b]
-            for d in range(self.dof_start[b], self.dof_start[b + 1]):
-                _turn(R, int(self.dof_axis[d]), self.dof_scale[d] * q[..., self.dof_coordinate[d]])
-            rotations[..., b, :, :] = R
+        local = np.broadcast_to(self.zero, (*batch, count, 3, 3)).copy()
+        for nodes, turns in self._rounds:
+            _turn(
+                local,
+                nodes,
+                self.dof_axis[turns],
+                self.dof_scale[turns] * q[..., self.dof_coordinate[turns]],
+            )
+        for nodes in self._generations:
+            parents = self.parents[nodes]
+            if parents[0] < 0:
+                positions[..., nodes, :] = self.offsets[nodes]
+                rotations[..., nodes, :, :] = local[..., nodes, :, :]
+                continue
+            R = rotations[..., parents, :, :]
+            positions[..., nodes, :] = (
+                positions[..., parents, :] + (R @ self.offsets[nodes][:, :, None])[..., 0]
+            )
+            rotations[..., nodes, :, :] = R @ local[..., nodes, :, :]
         return Frames(positions, rotations)
 
+    @cached_property
+    def _rounds(self) -> list[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+        """Nodes that have a first degree of freedom, a second, a third, and which those are."""
+        counts = np.diff(self.dof_start)
+        rounds = []
+        for k in range(int(counts.max(initial=0))):
+            nodes = np.flatnonzero(counts > k)
+            rounds.append((nodes, self.dof_start[nodes] + k))
+        return rounds
 
-def _turn(R: NDArray[np.float64], axis: int, angle: NDArray[np.float64]) -> None:
-    """R ← R · rot(axis, angle), in place: only the two other columns change."""
+    @cached_property
+    def _generations(self) -> list[NDArray[np.int64]]:
+        """Nodes by how many stand above them: a generation can be placed at once."""
+        depth = np.zeros(len(self.parents), dtype=np.int64)
+        for node, parent in enumerate(self.parents):
+            depth[node] = depth[parent] + 1 if parent >= 0 else 0
+        return [np.flatnonzero(depth == d) for d in range(int(depth.max(initial=0)) + 1)]
+
+
+def _turn(
+    R: NDArray[np.float64],
+    nodes: NDArray[np.int64],
+    axis: NDArray[np.int64],
+    angle: NDArray[np.float64],
+) -> None:
+    """R ← R · rot(axis, angle) for some nodes, in place: only the two other columns change.
+
+    Args: R: (…, B, 3, 3). nodes, axis: (n,). angle: (…, n).
+    """
     c, s = np.cos(angle)[..., None], np.sin(angle)[..., None]
     j, k = (axis + 1) % 3, (axis + 2) % 3
-    u, w = R[..., :, j].copy(), R[..., :, k].copy()
-    R[..., :, j] = c * u + s * w
-    R[..., :, k] = c * w - s * u
+    columns = np.swapaxes(R, -1, -2)
+    u, w = columns[..., nodes, j, :], columns[..., nodes, k, :]
+    columns[..., nodes, j, :] = c * u + s * w
+    columns[..., nodes, k, :] = c * w - s * u

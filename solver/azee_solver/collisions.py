@@ -128,11 +128,13 @@ class Obstacles:
     def overlaps(self, frames: Frames) -> tuple[Overlap, ...]:
         """Pairs that overlap in a posture, deepest first."""
         names = self.rig.capsules.names
-        excess = self.reach - self._margin - _distances(self.rig, self.pairs, frames)
-        order = [int(n) for n in np.argsort(-excess, kind="stable") if excess[n] > 0]
+        wanted = self.reach - self._margin
+        near = np.flatnonzero(_gap_at_least(self.rig, self.pairs, frames) < wanted)
+        excess = wanted[near] - _distances(self.rig, self.pairs[near], frames)
         return tuple(
-            Overlap(names[self.pairs[n, 0]], names[self.pairs[n, 1]], float(excess[n]))
-            for n in order
+            Overlap(*(names[c] for c in self.pairs[near[n]]), float(excess[n]))
+            for n in np.argsort(-excess, kind="stable")
+            if excess[n] > 0
         )
 
 
@@ -148,8 +150,8 @@ def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> tuple[Array
     point = site.point(frames)
     depth = np.array(
         [
-            radius - _to_segment(point, *_ends(rig, frames, c))
-            for c, radius in enumerate(capsules.radius)
+            radius - _to_segment(point, a, b)
+            for radius, a, b in zip(capsules.radius, *_ends(rig, frames), strict=True)
         ]
     )
     own = capsules.node == site.node
@@ -184,18 +186,28 @@ def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, Array,
     return pairs, radii, margin, relative
 
 
+def _gap_at_least(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> Array:
+    """Distance that the axes of pairs of capsules keep at least, by balls around them, (P,)."""
+    a, b = _ends(rig, frames)
+    middle, half = 0.5 * (a + b), 0.5 * np.linalg.norm(b - a, axis=1)
+    i, j = pairs.T
+    return np.asarray(np.linalg.norm(middle[i] - middle[j], axis=1) - half[i] - half[j])
+
+
 def _distances(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> Array:
     """Distance of the axes of pairs of capsules in a posture, (P,) metres."""
-    ends = np.array([_ends(rig, frames, c) for c in range(len(rig.capsules.names))])
-    p, q = ends[pairs[:, 0]], ends[pairs[:, 1]]
-    return segment_distance(p[:, 0], p[:, 1], q[:, 0], q[:, 1])
+    a, b = _ends(rig, frames)
+    i, j = pairs.T
+    return segment_distance(a[i], b[i], a[j], b[j])
 
 
-def _ends(rig: Rig, frames: Frames, c: int) -> tuple[Array, Array]:
+def _ends(rig: Rig, frames: Frames) -> tuple[Array, Array]:
+    """Ends of all capsules' axes in the world, (K, 3) each."""
     capsules = rig.capsules
-    node = capsules.node[c]
-    o, R = frames.positions[node], frames.rotations[node]
-    return o + R @ capsules.a[c], o + R @ capsules.b[c]
+    R, o = frames.rotations[capsules.node], frames.positions[capsules.node]
+    a = (R @ capsules.a[:, :, None])[:, :, 0] + o
+    b = (R @ capsules.b[:, :, None])[:, :, 0] + o
+    return a, b
 
 
 def _to_segment(p: Array, a: Array, b: Array) -> float:

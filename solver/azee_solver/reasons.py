@@ -12,6 +12,7 @@ import math
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,11 +43,21 @@ class Diagnosis:
         q: Array,
     ) -> None:
         self.demands, self.footprints, self.q = demands, footprints, q
-        options = replace(body.options, posture=1e-3, comfort=0.0, overlap=0.0, further_starts=2)
-        self.firm = Body(body.rig, body.evaluator, q, body.presets, body.options, body.constraints)
-        self.ghost = Body(body.rig, body.evaluator, q, {}, options, body.constraints)
-        self.dominant = body.evaluator.binding.dominant
+        self.body, self.dominant = body, body.evaluator.binding.dominant
         self.spent_s = 0.0
+
+    @cached_property
+    def firm(self) -> Body:
+        """The body as it was found."""
+        return replace(self.body, reference=self.q)
+
+    @cached_property
+    def ghost(self) -> Body:
+        """A body that nothing is in the way of, nor its own ease."""
+        options = replace(
+            self.body.options, posture=1e-3, comfort=0.0, overlap=0.0, further_starts=2
+        )
+        return replace(self.body, reference=self.q, presets={}, options=options)
 
     def reason(self, i: int, undefined: bool) -> str:
         """Return why demand i is not met, in one phrase."""

@@ -202,7 +202,7 @@ def _distances(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> Array:
 
 
 def _ends(rig: Rig, frames: Frames) -> tuple[Array, Array]:
-    """Ends of all capsules' axes in the world, (K, 3) each."""
+    """Return the ends of all capsules' axes in the world, (K, 3) each."""
     capsules = rig.capsules
     R, o = frames.rotations[capsules.node], frames.positions[capsules.node]
     a = (R @ capsules.a[:, :, None])[:, :, 0] + o

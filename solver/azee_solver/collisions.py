@@ -132,7 +132,7 @@ class Obstacles:
         near = np.flatnonzero(_gap_at_least(self.rig, self.pairs, frames) < wanted)
         excess = wanted[near] - _distances(self.rig, self.pairs[near], frames)
         return tuple(
-            Overlap(*(names[c] for c in self.pairs[near[n]]), float(excess[n]))
+            Overlap(names[self.pairs[near[n], 0]], names[self.pairs[near[n], 1]], float(excess[n]))
             for n in np.argsort(-excess, kind="stable")
             if excess[n] > 0
         )

@@ -35,7 +35,7 @@ def completeness(text: str, knowledge: Knowledge) -> Completeness:
     lines = read_lines(text).lines
     if not lines:
         return Completeness.WHOLE
-    if _unclosed(lines):
+    if _open(lines):
         return Completeness.LACKING
     item = _last_item(lines)
     if item[0].tokens[0].kind == "DEF" and len(item) == 1:
@@ -45,7 +45,12 @@ def completeness(text: str, knowledge: Knowledge) -> Completeness:
     return Completeness.LACKING if _lacks_operands(text, knowledge) else Completeness.WHOLE
 
 
-def _unclosed(lines: tuple[Line, ...]) -> bool:
+def unclosed(text: str) -> bool:
+    """Whether a text ends inside parentheses."""
+    return _open(read_lines(text).lines)
+
+
+def _open(lines: tuple[Line, ...]) -> bool:
     """Whether a parenthesis waits to be closed. `def` and `use` at the margin end the wait."""
     depth = 0
     for line in lines:

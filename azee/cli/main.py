@@ -21,6 +21,7 @@ from azee.cli.find import find
 from azee.cli.fmt import fmt
 from azee.cli.lsp import lsp
 from azee.cli.render import render
+from azee.cli.repl import repl
 from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
@@ -43,6 +44,7 @@ azee.add_command(find)
 azee.add_command(lsp)
 azee.add_command(rules)
 azee.add_command(rig)
+azee.add_command(repl)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -48,14 +48,14 @@ def _misses(missed: Sequence[ConstraintResult]) -> list[str]:
 
 def _miss(result: ConstraintResult) -> str:
     where = "/".join(result.path)
-    by = _amount(result.residual, result.unit)
+    by = amount(result.residual, result.unit)
     return (
         f"  {result.start_s:.2f}–{result.end_s:.2f} s {where + ': ' if where else ''}"
         f"{result.subject} {result.target}: off by {by}, {result.reason}"
     )
 
 
-def _amount(residual: float | None, unit: str) -> str:
+def amount(residual: float | None, unit: str) -> str:
     """Return a residual as people measure it."""
     if residual is None:
         return "what cannot be measured"

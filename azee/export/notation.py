@@ -62,24 +62,27 @@ def constraint_text(constraint: Constraint) -> str:
     """Return a constraint as AZee writes it, such as `place @EL(s) @PA(w) 'contact`."""
     match constraint:
         case Place(site=site, point=point, distance_m=distance, contact=contact):
-            options = [*(["'dist", _number(distance)] if distance else []), *["'contact"] * contact]
-            return _line("place", _part(site), _point(point), *options)
+            options = [
+                *(["'dist", number_text(distance)] if distance else []),
+                *["'contact"] * contact,
+            ]
+            return _line("place", part_text(site), point_text(point), *options)
         case Orient(axis, bone, relation, vector):
-            words = f"'{axis.value}", _part(bone), f"'{relation.value}", _vector(vector)
+            words = f"'{axis.value}", part_text(bone), f"'{relation.value}", vector_text(vector)
             return _line("orient", *words)
         case Look(vector):
-            return _line("look", _vector(vector))
+            return _line("look", vector_text(vector))
         case LookAt(point):
-            return _line("lookat", _point(point))
+            return _line("lookat", point_text(point))
         case Morph(name, side, weight):
-            return _line("morph", f"'{name}", *([side.value] if side else []), _number(weight))
+            return _line("morph", f"'{name}", *([side.value] if side else []), number_text(weight))
         case Trill(bone, axis, frequency_hz, amplitude_rad):
-            rest = f"'freq {_number(frequency_hz)} 'amp {_degrees(amplitude_rad)}"
-            return _line("trill", _part(bone), _vector(axis), rest)
+            rest = f"'freq {number_text(frequency_hz)} 'amp {_degrees(amplitude_rad)}"
+            return _line("trill", part_text(bone), vector_text(axis), rest)
         case Rotate(bone, axis, angle_rad):
-            return _line("rotate", _part(bone), _vector(axis), _degrees(angle_rad))
+            return _line("rotate", part_text(bone), vector_text(axis), _degrees(angle_rad))
         case Transpath(site, path):
-            return _line("transpath", _part(site), _path(path))
+            return _line("transpath", part_text(site), path_text(path))
         case _:
             assert_never(constraint)
 
@@ -92,83 +95,88 @@ def _call(name: str, *operands: str) -> str:
     return f"{name}({', '.join(operands)})"
 
 
-def _part(part: Bone | Site) -> str:
+def part_text(part: Bone | Site) -> str:
+    """Return a bone or a site as AZee writes it, in a call if it takes operands."""
     sign = "!" if isinstance(part, Bone) else "@"
     operands = [part.side.value] if part.side else []
     operands += [str(part.phalanx)] if part.phalanx else []
     return _call(sign + part.name, *operands) if operands else sign + part.name
 
 
-def _vector(vector: Vector) -> str:
+def vector_text(vector: Vector) -> str:
+    """Return a vector as AZee writes it."""
     match vector:
         case Vec(x, y, z):
             known = DIRECTIONS.get((x, y, z))
-            return known or _call("vec", *map(_number, (x, y, z)))
+            return known or _call("vec", *map(number_text, (x, y, z)))
         case Out(side):
             return _call("out", side.value)
         case Dir(bone):
-            return _call("dir", _part(bone))
+            return _call("dir", part_text(bone))
         case Nrm(bone):
-            return _call("nrm", _part(bone))
+            return _call("nrm", part_text(bone))
         case Opp(Out(side)):
             return _call("in", side.value)
         case Opp(of):
-            return _call("oppvect", _vector(of))
+            return _call("oppvect", vector_text(of))
         case Unit(of):
-            return _call("unit", _vector(of))
+            return _call("unit", vector_text(of))
         case Scale(of, factor):
-            return _call("scale", _vector(of), _number(factor))
+            return _call("scale", vector_text(of), number_text(factor))
         case VSum(vectors):
-            return _call("vsum", *map(_vector, vectors))
+            return _call("vsum", *map(vector_text, vectors))
         case VDiff(left, right):
-            return _call("vdiff", _vector(left), _vector(right))
+            return _call("vdiff", vector_text(left), vector_text(right))
         case Cross(left, right):
-            return _call("cross", _vector(left), _vector(right))
+            return _call("cross", vector_text(left), vector_text(right))
         case Towards(start, end):
-            return _call("towards", _point(start), _point(end))
+            return _call("towards", point_text(start), point_text(end))
         case Rotated(of, axis, angle_rad):
-            return _call("rotated", _vector(of), _vector(axis), _degrees(angle_rad))
+            return _call("rotated", vector_text(of), vector_text(axis), _degrees(angle_rad))
         case _:
             assert_never(vector)
 
 
-def _point(point: Point) -> str:
+def point_text(point: Point) -> str:
+    """Return a point as AZee writes it."""
     match point:
         case FreePoint(x, y, z) | WorldPoint(x, y, z):
-            return _call("point", *map(_number, (x, y, z)))
+            return _call("point", *map(number_text, (x, y, z)))
         case NamedPoint(place):
             return f"^{place.value}"
         case SitePoint(site):
-            return _part(site)
+            return part_text(site)
         case JointPoint(bone):
-            return _call("joint", _part(bone))
+            return _call("joint", part_text(bone))
         case VTranslate(of, vector):
-            return _call("vtranslate", _point(of), _vector(vector))
+            return _call("vtranslate", point_text(of), vector_text(vector))
         case Between(start, end, fraction):
-            return _call("between", _point(start), _point(end), _number(fraction))
+            return _call("between", point_text(start), point_text(end), number_text(fraction))
         case Moving(path, start, end):
-            return _call("moving", _path(path), _point(start), _point(end))
+            return _call("moving", path_text(path), point_text(start), point_text(end))
         case _:
             assert_never(point)
 
 
-def _path(path: Path) -> str:
+def path_text(path: Path) -> str:
+    """Return a path as AZee writes it."""
     match path:
         case Straight():
             return "straight"
         case Arc(bulge):
-            return _call("arc", _vector(bulge))
+            return _call("arc", vector_text(bulge))
         case Circle(axis, radius_m, turns):
-            return _call("circle", _vector(axis), _number(radius_m), _number(turns))
+            return _call("circle", vector_text(axis), number_text(radius_m), number_text(turns))
         case Through(points):
-            return _call("through", *map(_point, points))
+            return _call("through", *map(point_text, points))
         case _:
             assert_never(path)
 
 
-def _number(value: float) -> str:
+def number_text(value: float) -> str:
+    """Return a number with six digits at the most."""
     return f"{value:.6g}"
 
 
 def _degrees(angle_rad: float) -> str:
-    return _number(round(math.degrees(angle_rad), 6))
+    return number_text(round(math.degrees(angle_rad), 6))

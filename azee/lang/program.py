@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -35,6 +35,7 @@ from azee_solver.constraint import Origin
 from azee_solver.geometry import Side
 
 BETWEEN_UTTERANCES_S = Fraction(1)
+NO_NAMES: Mapping[str, Value] = {}
 _MOST_CALLS = 12
 """Of a longer rule call stack, the innermost and the outermost half are shown."""
 
@@ -125,6 +126,23 @@ class Program:
         """
         return self._expression(Source(name, text))[1]
 
+    def result(self, expr: Expr, names: Mapping[str, Value]) -> Value:
+        """Evaluate an expression that has been read, which may name the given values, `^name`.
+
+        Mistakes in rules that it does not reach do not matter.
+
+        Raises: AZeeError: all that is wrong with it, or with the rules it reaches.
+        """
+        found: list[Diagnostic] = []
+        value = self._value(expr, found, names)
+        if isinstance(value, ScoreValue):
+            found += audit(value.content, Side.RIGHT, self._span_of, expr.span)
+        if value is None and not found:  # it came upon what is wrong with a rule
+            found += self._rule_diagnostics()
+        self._require_sound(_tidy(found, expr.span.source))
+        assert value is not None, "nothing was reported, so there is a value"
+        return value
+
     def _expression(self, source: Source) -> tuple[Expr, Value]:
         expr, diagnostics = parse_expression(source)
         found = list(diagnostics)
@@ -171,11 +189,14 @@ class Program:
             diagnostics.append(_not_a_score(value, expr))
         return None
 
-    def _value(self, expr: Expr, diagnostics: list[Diagnostic]) -> Value | None:
+    def _value(
+        self, expr: Expr, diagnostics: list[Diagnostic], names: Mapping[str, Value] = NO_NAMES
+    ) -> Value | None:
         """Resolve and evaluate; None where something is wrong, which is then reported."""
-        code = self.resolving.resolver(self.scope, None, diagnostics).resolve(expr)
+        resolver = self.resolving.resolver(self.scope, None, diagnostics)
+        code = resolver.resolve(expr, frozenset(names))
         try:
-            return code.evaluate(Machine(self.limits), {})
+            return code.evaluate(Machine(self.limits), names)
         except Fault as problem:
             diagnostics += problem.diagnostics
             return None

@@ -96,9 +96,9 @@ class Resolver:
         self.shared.spans[origin] = span
         return origin
 
-    def resolve(self, expr: Expr) -> Code:
-        """Return the code of an expression that sees no local names."""
-        return run(self.all((expr,), frozenset()), self._steps)[0]
+    def resolve(self, expr: Expr, visible: Visible = frozenset()) -> Code:
+        """Return the code of an expression that sees some local names, by default none."""
+        return run(self.all((expr,), visible), self._steps)[0]
 
     def procedure(self, expr: Application) -> tuple[tuple[FormalParameter, ...], Code]:
         """Return the parameters and the body of an `azop` that sees no local names."""

@@ -36,6 +36,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.export": {"azee.score", "azee.motion", "azee_rig", "numpy", "PIL", "numba", "av"}
     | DECLARATIONS,
     "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},
+    "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
     "azee.cli": {*OURS, "click", "rich"},
     "azee": OURS,
 }

@@ -1,0 +1,1 @@
+"""The prompt at which AZee is tried: `azee repl`."""

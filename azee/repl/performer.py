@@ -1,0 +1,118 @@
+"""A body that plays what was evaluated, kept ready between one answer and the next."""
+
+from __future__ import annotations
+
+import threading
+import time
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from azee.compilation import Hand
+from azee.lang.values import ConstraintsValue, ScoreValue, Value
+from azee.repl.refusal import Refusal
+from azee.score.score import Key, Score
+
+if TYPE_CHECKING:
+    from azee.compilation import Compilation
+    from azee_rig.rig import Rig
+
+SHOWN_S = Fraction(1)
+"""How long a set of constraints is held that is to be seen."""
+
+
+class Performer:
+    """Solves scores, each once, and gets ready for that while nobody waits."""
+
+    def __init__(self, rig_name: str, hand: Hand) -> None:
+        self.rig_name = rig_name
+        self.hand: Hand = hand
+        self._rig: Rig | None = None
+        self._made: tuple[Score, Compilation] | None = None
+        self._warming: threading.Thread | None = None
+        self.took_s = 0.0
+        """How long the last solution took, from score to clip."""
+
+    @property
+    def rig(self) -> Rig:
+        """The body. Raises: RigError: there is none of that name."""
+        from azee_rig.load import load_rig
+
+        if self._rig is None:
+            self._rig = load_rig(self.rig_name)
+        return self._rig
+
+    def change(self, rig_name: str | None = None, hand: Hand | None = None) -> None:
+        """Take another body or another dominant hand.
+
+        Raises: RigError: there is no such body; then the one before stays.
+        """
+        from azee_rig.load import load_rig
+
+        if rig_name is not None:
+            self._rig = load_rig(rig_name)
+            self.rig_name = rig_name
+        if hand is not None:
+            self.hand = hand
+        self._made = None
+
+    def perform(self, score: Score) -> Compilation:
+        """Solve a score, unless it is the one that was solved last.
+
+        Raises: AZeeError: the body lacks what the score names.
+        """
+        from azee.compilation import perform
+
+        if self._made is None or self._made[0] is not score:
+            if self._warming is not None:
+                self._warming.join()
+            began = time.perf_counter()
+            self._made = score, perform(score, self.rig, dominant=self.hand)
+            self.took_s = time.perf_counter() - began
+        return self._made[1]
+
+    def warm_up(self) -> None:
+        """Load the body, the solver and its kernels beside the prompt."""
+        self._warming = threading.Thread(target=self._warm, daemon=True, name="warm-up")
+        self._warming.start()
+
+    @property
+    def warming(self) -> bool:
+        """Whether getting ready goes on."""
+        return self._warming is not None and self._warming.is_alive()
+
+    def _warm(self) -> None:
+        from azee.compilation import perform
+        from azee.lang.program import evaluate_expression
+        from azee_grammar.diagnostic import AZeeError
+        from azee_rig.load import RigError, load_rig
+
+        try:
+            rig = load_rig(self.rig_name)
+            perform(evaluate_expression(WARMING).score, rig)
+        except (AZeeError, RigError):
+            return  # whoever asks for the body is told
+
+
+WARMING = ":info-about(:cinéma, :bien)"
+"""An expression that calls on all kernels: contacts, paths, collisions, the face."""
+
+
+def playable(value: Value) -> Score | None:
+    """Return the score that shows a value: a score itself, constraints held for a while."""
+    match value:
+        case ScoreValue(content=score):
+            return score
+        case ConstraintsValue(content=constraints):
+            return Key(SHOWN_S, constraints=constraints)
+        case _:
+            return None
+
+
+def required(value: Value) -> Score:
+    """Return the score that shows a value. Raises: Refusal: there is nothing to see of it."""
+    score = playable(value)
+    if score is None:
+        raise Refusal(
+            f"the last result is {value.kind.value}, and a body plays scores and constraints"
+        )
+    return score

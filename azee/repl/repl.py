@@ -1,0 +1,120 @@
+"""One input after the other: evaluated, shown, solved; or a command, carried out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from azee.repl.ink import Ink
+from azee.repl.performer import Performer, playable
+from azee.repl.refusal import Refusal
+from azee.repl.residuals import summary
+from azee.repl.screen import Screen
+from azee.repl.session import Defined, Evaluated, Failed, Outcome, Reloaded, Session, Used
+from azee.repl.value_text import value_lines
+from azee_grammar.diagnostic import AZeeError, Severity
+
+
+class Quit(Exception):  # noqa: N818 - the user wants to
+    """The session ends."""
+
+
+class Repl:
+    """A session, a body and a screen.
+
+    interactive: whether somebody waits at a prompt, to whom Ctrl-C means only what is running.
+    solving: whether every score is solved at once and the outcome told.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        performer: Performer,
+        screen: Screen,
+        *,
+        interactive: bool,
+        solving: bool,
+    ) -> None:
+        self.session, self.performer, self.screen = session, performer, screen
+        self.interactive, self.solving = interactive, solving
+
+    def run(self, text: str) -> bool:
+        """Take in one input; return whether nothing was wrong with it.
+
+        Raises: Quit: that was what the user wanted.
+        """
+        from azee.repl.commands import carry_out, is_command
+
+        try:
+            if is_command(text):
+                carry_out(self, text)
+                return True
+            self.refresh()
+            right = True
+            for outcome in self.session.enter(text):
+                right = self._shown(outcome) and right
+            return right
+        except AZeeError as error:
+            self.screen.complain(error.diagnostics)
+        except Refusal as refusal:
+            self.screen.refuse(refusal.message, refusal.hint)
+        except KeyboardInterrupt:
+            if not self.interactive:
+                raise
+            self.screen.say("interrupted", Ink.WARNING)
+        return False
+
+    def load(self, paths: Sequence[Path]) -> bool:
+        """Load files; return whether nothing is wrong with them."""
+        right = True
+        for path in paths:
+            try:
+                mistakes = self.session.load(path)
+            except AZeeError as error:
+                self.screen.complain(error.diagnostics)
+                right = False
+                continue
+            self.screen.complain(mistakes)
+            right = right and not mistakes
+        return right
+
+    def refresh(self) -> None:
+        """Take in changes of files before anything is evaluated."""
+        if (reloaded := self.session.refresh()) is not None:
+            self.tell(reloaded)
+
+    def tell(self, reloaded: Reloaded) -> None:
+        """Tell what came of reading files again."""
+        names = ", ".join(path.name for path in reloaded.paths)
+        if reloaded.mistakes:
+            self.screen.complain(reloaded.mistakes)
+            if names:
+                self.screen.say(f"{names}: the version before stays in use", Ink.WARNING)
+        elif names:
+            self.screen.say(f"reloaded {names}")
+
+    def solved(self) -> None:
+        """Solve the last result and tell the outcome."""
+        score = playable(self.session.last.value) if self.session.last else None
+        if score is None:
+            return
+        made = self.performer.perform(score)
+        self.screen.show(summary(made.report, self.performer.took_s))
+
+    def _shown(self, outcome: Outcome) -> bool:
+        screen = self.screen
+        match outcome:
+            case Failed(diagnostics=diagnostics):
+                screen.complain(diagnostics)
+                return not any(d.severity is Severity.ERROR for d in diagnostics)
+            case Used(name=name):
+                screen.say(f"using '{name}")
+            case Defined(name=name, again=again, mistakes=mistakes):
+                screen.complain(mistakes)
+                screen.say(f"{'redefined' if again else 'defined'} :{name}")
+                return not mistakes
+            case Evaluated(value=value):
+                screen.show(value_lines(value, screen.columns, colour=screen.colour))
+                if self.solving:
+                    self.solved()
+        return True

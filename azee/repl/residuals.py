@@ -1,0 +1,77 @@
+"""What came of solving, in lines: an outcome at a glance, and every constraint in a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from azee.cli.outcome import amount
+from azee.repl.ink import Ink, Line, cut, width
+
+if TYPE_CHECKING:
+    from azee.motion.report import ConstraintResult, MotionReport
+
+
+def summary(report: MotionReport, took_s: float) -> Iterator[Line]:
+    """Tell how long solving took, and name the constraints that are out of tolerance."""
+    missed = [result for result in report.constraints if not result.met]
+    count = len(report.constraints)
+    many = "1 constraint" if count == 1 else f"{count} constraints"
+    postures = len(report.postures)
+    keys = "1 key posture" if postures == 1 else f"{postures} key postures"
+    line = [(Ink.FAINT, f"solved in {took_s:.2f} s: {keys}, {many}, ")]
+    if missed:
+        line.append((Ink.BAD, f"{len(missed)} out of tolerance"))
+    elif count:
+        line.append((Ink.GOOD, "all met"))
+    else:
+        line.append((Ink.FAINT, "nothing to meet"))
+    yield line
+    for result in missed:
+        where = "/".join(result.path)
+        yield (
+            (Ink.BAD, f"  {where + ': ' if where else ''}{result.subject} {result.target}"),
+            (Ink.PLAIN, f" off by {amount(result.residual, result.unit)}, {result.reason}"),
+        )
+
+
+def table(report: MotionReport, columns: int) -> Iterator[Line]:
+    """Show every constraint, in order of time: when, in which block, how far off, of how much."""
+    rows = sorted(report.constraints, key=lambda r: (r.start_s, r.end_s, r.path))
+    if not rows:
+        return
+    cells = [_cells(result) for result in rows]
+    widths = [max(width(row[i]) for row in (_HEAD, *cells)) for i in range(len(_HEAD))]
+    room = columns - widths[0] - widths[3] - widths[4] - 4 * 2 - 2
+    widths[1] = min(widths[1], max(8, room // 3))
+    widths[2] = min(widths[2], max(12, room - widths[1]))
+    yield ((Ink.FAINT, _row(_HEAD, widths)),)
+    for result, row in zip(rows, cells, strict=True):
+        mark = (Ink.GOOD, " ✓") if result.met else (Ink.BAD, " ✗")
+        yield ((Ink.PLAIN, _row(row, widths)), mark)
+        if result.reason:
+            yield ((Ink.BAD, f"{' ' * (widths[0] + 2)}{result.reason}"),)
+
+
+_HEAD = ("seconds", "block", "constraint", "off by", "of")
+
+
+def _cells(result: ConstraintResult) -> tuple[str, ...]:
+    return (
+        f"{result.start_s:.2f}–{result.end_s:.2f}",
+        "/".join(result.path) or result.rule or "",
+        f"{result.subject} {result.target}",
+        amount(result.residual, result.unit),
+        amount(result.tolerance, result.unit),
+    )
+
+
+def _row(cells: tuple[str, ...], widths: list[int]) -> str:
+    shown = [cut(cell, size) for cell, size in zip(cells, widths, strict=True)]
+    left = "  ".join(
+        text + " " * (size - width(text)) for text, size in zip(shown[:3], widths[:3], strict=True)
+    )
+    right = "  ".join(
+        " " * (size - width(text)) + text for text, size in zip(shown[3:], widths[3:], strict=True)
+    )
+    return f"{left}  {right}"

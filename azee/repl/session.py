@@ -1,0 +1,193 @@
+"""What a session knows: rules that were typed or loaded, and the results so far."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from azee.assist.knowledge import Knowledge
+from azee.lang.program import Program
+from azee.lang.values import Value
+from azee.repl.assembly import assemble, mistakes_in_files
+from azee.repl.shelf import Shelf
+from azee_grammar.diagnostic import AZeeError, Diagnostic
+from azee_grammar.parser import parse
+from azee_grammar.source import Source
+from azee_grammar.syntax import Definition, Expr, Item, Use
+
+LAST = "_"
+"""`^_` is the last result at the prompt."""
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluated:
+    """An expression and its value."""
+
+    expr: Expr
+    value: Value
+    evaluate_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Defined:
+    """A rule was defined, perhaps in the place of another, perhaps with mistakes."""
+
+    name: str
+    again: bool
+    mistakes: tuple[Diagnostic, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Used:
+    """A library was brought into scope."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """The input is at fault."""
+
+    diagnostics: tuple[Diagnostic, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Reloaded:
+    """Files changed; with mistakes in them, the versions before stay in use."""
+
+    paths: tuple[Path, ...]
+    mistakes: tuple[Diagnostic, ...]
+
+
+Outcome = Evaluated | Defined | Used | Failed
+
+
+class Session:
+    """Evaluates what is typed, in the scope of all that was typed and loaded before."""
+
+    def __init__(self, folders: Sequence[Path] = ()) -> None:
+        self.shelf = Shelf(tuple(folders))
+        self.uses: dict[str, Use] = {}
+        self.definitions: dict[str, Definition] = {}
+        self.files: list[Path] = []
+        self.last: Evaluated | None = None
+        self._count = 0
+        self._refused: tuple[object, ...] = ()
+        self.program = self._assembled(self.shelf)
+
+    @property
+    def knowledge(self) -> Knowledge:
+        """The names that mean something at the prompt."""
+        return Knowledge(self.program.scope, self.shelf.folders)
+
+    @property
+    def names(self) -> dict[str, Value]:
+        """Values that an expression may name."""
+        return {LAST: self.last.value} if self.last else {}
+
+    def enter(self, text: str) -> Iterator[Outcome]:
+        """Take in what was typed, item by item.
+
+        An interruption leaves the session as it was before the item.
+        """
+        self._count += 1
+        parsed = parse(Source(f"<input {self._count}>", _unindented(text)))
+        if parsed.diagnostics:
+            yield Failed(parsed.diagnostics)
+        for item in parsed.file.items:
+            if not (isinstance(item, Definition) and item.body is None):
+                try:
+                    yield self._enter(item)
+                except AZeeError as error:
+                    yield Failed(error.diagnostics)
+                except KeyboardInterrupt:
+                    self.program = self._assembled(self.shelf)  # caches may be half filled
+                    raise
+
+    def load(self, path: Path) -> tuple[Diagnostic, ...]:
+        """Take in the rules of a file, now and whenever it changes; return what is wrong.
+
+        Raises: AZeeError: it cannot be read.
+        """
+        path = path.resolve()
+        shelf = self.shelf.renewed()
+        shelf.read(path)
+        if path in self.files:
+            self.files.remove(path)
+        self.files.append(path)
+        self.shelf, self.program = shelf, self._assembled(shelf)
+        return mistakes_in_files(self.program)
+
+    def refresh(self) -> Reloaded | None:
+        """Read the files that have changed, unless that was tried already.
+
+        If that brings mistakes, what was right before stays in use.
+        """
+        changed = self.shelf.changed()
+        if not changed:
+            self._refused = ()
+            return None
+        shelf = self.shelf.renewed()
+        program = self._assembled(shelf)
+        mistakes = mistakes_in_files(program)
+        if mistakes and not mistakes_in_files(self.program):
+            state = tuple((path, _state(path)) for path in changed)
+            if state == self._refused:
+                return None
+            self._refused = state
+            return Reloaded(changed, mistakes)
+        self.shelf, self.program, self._refused = shelf, program, ()
+        return Reloaded(changed, mistakes)
+
+    def reload(self) -> Reloaded:
+        """Read every file again, changed or not; mistakes are told again."""
+        self._refused = ()
+        return self.refresh() or Reloaded((), mistakes_in_files(self.program))
+
+    def _enter(self, item: Item) -> Outcome:
+        match item:
+            case Use(library=library):
+                return self._use(item, library.name)
+            case Definition(name=name):
+                again = name in self.definitions
+                self.definitions[name] = item
+                self.program = self._assembled(self.shelf)
+                rule = self.program.scope.own.rules[name]
+                _ = rule.procedure
+                return Defined(name, again, tuple(rule.diagnostics))
+            case _:
+                began = time.perf_counter()
+                value = self.program.result(item.expr, self.names)
+                self.last = Evaluated(item.expr, value, time.perf_counter() - began)
+                return self.last
+
+    def _use(self, item: Use, name: str) -> Outcome:
+        before = self.uses
+        self.uses = {**before, name: item}
+        program = self._assembled(self.shelf)
+        lacking = tuple(d for d in program.found if d.span == item.library.span)
+        if lacking:
+            self.uses = before
+            return Failed(lacking)
+        self.program = program
+        return Used(name)
+
+    def _assembled(self, shelf: Shelf) -> Program:
+        return assemble(self.uses.values(), self.definitions.values(), self.files, shelf)
+
+
+def _state(path: Path) -> object:
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    return status.st_mtime_ns, status.st_size
+
+
+def _unindented(text: str) -> str:
+    """Take from every line the blanks that all have in common, as of a pasted passage."""
+    import textwrap
+
+    return textwrap.dedent(text)

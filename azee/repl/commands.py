@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from azee.formats import SUFFIXES, writing
+from azee.formats import FILM_SUFFIXES, SUFFIXES, writing
 from azee.repl.ink import Ink, Line
 from azee.repl.performer import required
 from azee.repl.refusal import Refusal
@@ -161,7 +161,7 @@ def _render(repl: Repl, argument: str) -> None:
 def _save(repl: Repl, argument: str) -> None:
     from azee.repl.saved import save_text
 
-    path = _output(argument, (".azee", *SUFFIXES))
+    path = _output(argument, (".azee", *SUFFIXES, *FILM_SUFFIXES))
     if path.suffix == ".azee":
         save_text(repl.session, path)
     else:
@@ -263,7 +263,7 @@ COMMANDS: Mapping[str, Command] = {
         "/render [FILE.png] [SECONDS] [VIEW]", "the posture at a time, here or in a file", _render
     ),
     "save": Command(
-        "/save FILE", f"what was typed as .azee; the last score as {' '.join(SUFFIXES)}", _save
+        "/save FILE", f"what was typed as .azee; the last score as {' '.join((*SUFFIXES, *FILM_SUFFIXES))}", _save
     ),
     "time": Command("/time [EXPRESSION]", "how long evaluating and solving take", _time),
     "load": Command(

@@ -18,6 +18,8 @@ from azee_grammar import vocabulary
 from azee_solver.constraint import Constraint, Look, LookAt, Morph, Rotate, Trill
 
 NARROWEST = 24
+MOST_ROWS = 40
+"""Of a longer diagram the deepest levels are left out."""
 _TRUNK = ("head", "neck", "back", "clav", "jaw")
 _TICK_COLUMNS = 9
 _STEPS = [Fraction(n, 20) for n in (1, 2, 4, 10, 20, 40, 100, 200, 400, 1200, 6000, 12000, 72000)]
@@ -58,24 +60,40 @@ def diagram(score: Score, columns: int, *, colour: bool) -> tuple[Line, ...]:
     of; without, it is drawn between `├` and `┤`.
     """
     columns = max(columns, NARROWEST)
-    rows = list(_rows([nested(score)], score.duration, columns))
+    rows, left_out = _fitting_rows(nested(score), score.duration, columns)
     legend = _legend(dict.fromkeys(_ink(bar.box) for row in rows for bar in row))
     return (
         *_axis(score.duration, columns),
-        *(_drawn(row, columns, colour=colour) for row in rows),
+        *(_drawn(row, colour=colour) for row in rows),
         *((legend,) if colour and legend else ()),
+        *((((Ink.FAINT, "what is left out here: /score tells it"),),) if left_out else ()),
     )
 
 
-def _rows(boxes: Sequence[Box], duration: Fraction, columns: int) -> Iterator[list[_Bar]]:
-    """Yield rows of bars, each followed by the rows of what is inside its bars."""
+def _fitting_rows(whole: Box, duration: Fraction, columns: int) -> tuple[list[list[_Bar]], bool]:
+    """Return the rows of as many levels as `MOST_ROWS` take, and whether that is not all."""
+    deepest = max(box.depth for box in whole.all())
+    for levels in range(deepest, -1, -1):
+        rows = list(_rows([whole], duration, columns, levels))
+        if len(rows) <= MOST_ROWS:
+            return rows, levels < deepest
+        if levels == 1:
+            return rows[:MOST_ROWS], True
+    return rows, False
+
+
+def _rows(
+    boxes: Sequence[Box], duration: Fraction, columns: int, levels: int
+) -> Iterator[list[_Bar]]:
+    """Yield rows of bars, each followed by the rows of what is inside its bars, to a depth."""
     bars = [_bar(box, duration, columns) for box in boxes]
     taken = [Interval(Fraction(bar.begin), Fraction(bar.reach + 1)) for bar in bars]
     for lane in lanes(taken):
         row = [bars[i] for i in lane]
         yield row
-        if inner := [box for bar in row for box in bar.box.inner]:
-            yield from _rows(inner, duration, columns)
+        inner = [box for bar in row for box in bar.box.inner if box.depth <= levels]
+        if inner:
+            yield from _rows(inner, duration, columns, levels)
 
 
 def _bar(box: Box, duration: Fraction, columns: int) -> _Bar:
@@ -96,7 +114,7 @@ def _bar(box: Box, duration: Fraction, columns: int) -> _Bar:
     return _Bar(box, first, end, cut(label, inside), first + 1)
 
 
-def _drawn(row: Sequence[_Bar], columns: int, *, colour: bool) -> Line:
+def _drawn(row: Sequence[_Bar], *, colour: bool) -> Line:
     """Write a row, from left to right."""
     line: list[tuple[Ink, str]] = []
     at = 0

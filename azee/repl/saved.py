@@ -24,8 +24,8 @@ def save_text(session: Session, path: Path) -> None:
     items = [use.span.text for use in session.uses.values()]
     if items and not session.files:
         items.insert(0, "use 'lsf")
-    items += [definition.span.text for definition in session.definitions.values()]
-    items += [last.span.text] if last is not None else []
+    items += session.texts.values()
+    items += [session.last.text] if session.last else []
     if not items:
         raise Refusal("nothing has been typed yet")
     with writing(path), replace_file(path) as file:

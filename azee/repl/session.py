@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from azee.lang.values import Value
 from azee.repl.assembly import assemble, mistakes_in_files
 from azee.repl.shelf import Shelf
 from azee_grammar.diagnostic import AZeeError, Diagnostic
+from azee_grammar.layout import LayoutReader
 from azee_grammar.parser import parse
 from azee_grammar.source import Source
 from azee_grammar.syntax import Definition, Expr, Item, Use
@@ -23,8 +25,9 @@ LAST = "_"
 
 @dataclass(frozen=True, slots=True)
 class Evaluated:
-    """An expression and its value."""
+    """An expression, as it was written and as it was read, and its value."""
 
+    text: str
     expr: Expr
     value: Value
     evaluate_s: float
@@ -71,6 +74,8 @@ class Session:
         self.shelf = Shelf(tuple(folders))
         self.uses: dict[str, Use] = {}
         self.definitions: dict[str, Definition] = {}
+        self.texts: dict[str, str] = {}
+        """Of the definitions, as they were written."""
         self.files: list[Path] = []
         self.last: Evaluated | None = None
         self._count = 0
@@ -93,13 +98,14 @@ class Session:
         An interruption leaves the session as it was before the item.
         """
         self._count += 1
-        parsed = parse(Source(f"<input {self._count}>", _unindented(text)))
+        source = Source(f"<input {self._count}>", textwrap.dedent(text))
+        parsed = parse(source)
         if parsed.diagnostics:
             yield Failed(parsed.diagnostics)
         for item in parsed.file.items:
             if not (isinstance(item, Definition) and item.body is None):
                 try:
-                    yield self._enter(item)
+                    yield self._enter(item, _written(source, item))
                 except AZeeError as error:
                     yield Failed(error.diagnostics)
                 except KeyboardInterrupt:
@@ -146,13 +152,14 @@ class Session:
         self._refused = ()
         return self.refresh() or Reloaded((), mistakes_in_files(self.program))
 
-    def _enter(self, item: Item) -> Outcome:
+    def _enter(self, item: Item, text: str) -> Outcome:
         match item:
             case Use(library=library):
                 return self._use(item, library.name)
             case Definition(name=name):
                 again = name in self.definitions
                 self.definitions[name] = item
+                self.texts[name] = text
                 self.program = self._assembled(self.shelf)
                 rule = self.program.scope.own.rules[name]
                 _ = rule.procedure
@@ -160,7 +167,7 @@ class Session:
             case _:
                 began = time.perf_counter()
                 value = self.program.result(item.expr, self.names)
-                self.last = Evaluated(item.expr, value, time.perf_counter() - began)
+                self.last = Evaluated(text, item.expr, value, time.perf_counter() - began)
                 return self.last
 
     def _use(self, item: Use, name: str) -> Outcome:
@@ -186,8 +193,10 @@ def _state(path: Path) -> object:
     return status.st_mtime_ns, status.st_size
 
 
-def _unindented(text: str) -> str:
-    """Take from every line the blanks that all have in common, as of a pasted passage."""
-    import textwrap
-
-    return textwrap.dedent(text)
+def _written(source: Source, item: Item) -> str:
+    """Return the text of an item; its own span leaves out parentheses around expressions."""
+    for layout in LayoutReader(source).items():
+        start, end = layout.tokens[0].start, max(token.end for token in layout.tokens)
+        if start <= item.span.start < end:
+            return source.text[start:end]
+    return item.span.text

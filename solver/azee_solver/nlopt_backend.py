@@ -83,22 +83,45 @@ def minimise(
             optimiser.optimize(first)
             gave_up = False
         except GIVES_UP:
+            if best.failure is not None:
+                raise _origin(best.failure) from None
             gave_up = best.value >= origin
         if not gave_up:
             break
     return Minimum(np.clip(best.x, lower, upper), best.value)
 
 
+def _origin(failure: BaseException) -> BaseException:
+    """Return what came first in a chain of exceptions."""
+    while (before := failure.__cause__ or failure.__context__) is not None:
+        failure = before
+    return failure
+
+
 class _Best:
-    """The objective, remembering the lowest point it was asked for."""
+    """The objective, remembering the lowest point it was asked for, and what it raised.
+
+    After an exception, such as that of Ctrl-C, NLopt goes on for some evaluations and then raises
+    one of its own, as if the descent had just ended early.
+    """
 
     def __init__(self, objective: Callable[[Array, Array], float], first: Array) -> None:
         self.objective = objective
         self.x = first.copy()
         self.value = math.inf
+        self.failure: BaseException | None = None
         self.value = self(first, np.empty(len(first)))
 
     def __call__(self, x: Array, gradient: Array) -> float:
+        if self.failure is not None:
+            raise self.failure
+        try:
+            return self._evaluated(x, gradient)
+        except BaseException as failure:
+            self.failure = failure
+            raise
+
+    def _evaluated(self, x: Array, gradient: Array) -> float:
         value = self.objective(x, gradient)
         if not math.isfinite(value):
             gradient[:] = 0.0

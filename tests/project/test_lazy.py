@@ -22,6 +22,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("compile", "--help"): set(),
     ("render", "--help"): set(),
     ("clip", "cut", "--help"): set(),
+    ("repl", "--help"): set(),
     ("rig", "--help"): set(),
     ("rig", "sites", "--format", "json"): {"numpy"},
     ("check", "--quiet", "text.azee"): {"lark"},

@@ -71,6 +71,24 @@ def test_an_error_in_the_objective_is_not_swallowed() -> None:
         run(broken)
 
 
+@pytest.mark.parametrize("last", range(1, 12))
+def test_an_interruption_ends_the_descent_whenever_it_comes(last: int) -> None:
+    """NLopt asks on after the callback raised, and what it asks with fails in its own way."""
+    calls = 0
+
+    def interrupted(x: Array, gradient: Array) -> float:
+        nonlocal calls
+        calls += 1
+        if calls == last:
+            raise KeyboardInterrupt
+        if calls > last:
+            raise RuntimeError("a result with an exception set")
+        return bowl(x**3, gradient)
+
+    with pytest.raises(KeyboardInterrupt):
+        run(interrupted, (0.9, -0.7))
+
+
 def test_the_best_point_survives_an_objective_that_gets_worse() -> None:
     calls = []
 

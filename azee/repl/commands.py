@@ -263,7 +263,9 @@ COMMANDS: Mapping[str, Command] = {
         "/render [FILE.png] [SECONDS] [VIEW]", "the posture at a time, here or in a file", _render
     ),
     "save": Command(
-        "/save FILE", f"what was typed as .azee; the last score as {' '.join((*SUFFIXES, *FILM_SUFFIXES))}", _save
+        "/save FILE",
+        f"what was typed as .azee; the last score as {' '.join((*SUFFIXES, *FILM_SUFFIXES))}",
+        _save,
     ),
     "time": Command("/time [EXPRESSION]", "how long evaluating and solving take", _time),
     "load": Command(

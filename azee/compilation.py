@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from azee.formats import WRITERS, writing
+from azee.formats import WRITERS, write_elan, writing
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
@@ -58,16 +58,20 @@ class Compilation:
         with writing(path), replace_file(path) as file:
             file.write(f"{data}\n".encode())
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: str | Path, *, media: str | Path | None = None) -> None:
         """Write a file whose suffix names the format: one of `SUFFIXES` or `FILM_SUFFIXES`.
 
+        Args: media: the film that an ELAN file (.eaf) is to show beside the score.
         Raises: ValueError: no format has that suffix. AZeeError: cannot-write, not-installed.
         """
         write = WRITERS.get(Path(path).suffix.lower())
         if write is None:
             raise ValueError(f"no format has the suffix of {path}; known are {' '.join(WRITERS)}")
         with writing(path):
-            write(self, Path(path))
+            if media is not None and Path(path).suffix.lower() == ".eaf":
+                write_elan(self, Path(path), Path(media))
+            else:
+                write(self, Path(path))
 
 
 def compile(  # noqa: A001 - azee.compile, as re.compile

@@ -102,6 +102,20 @@ def _svg(made: Compilation, path: Path) -> None:
     write_svg(made.score, path, track_rows(made.animation.tracks))
 
 
+def _eaf(made: Compilation, path: Path) -> None:
+    write_elan(made, path)
+
+
+def write_elan(made: Compilation, path: Path, media: Path | None = None) -> None:
+    """Write a compilation as an ELAN file: on the time line of its films, `media` being one."""
+    from azee.export.eaf import write_eaf
+    from azee.export.track_rows import track_rows
+
+    animation = made.animation
+    rows = track_rows(animation.tracks)
+    write_eaf(made.score, path, rows, lead_s=animation.lead_s, media=media)
+
+
 def _png(made: Compilation, path: Path) -> None:
     from azee.export.storyboard import write_png
 
@@ -120,6 +134,7 @@ WRITERS: dict[str, Callable[[Compilation, Path], None]] = {
     **{suffix: _of_compilation(write) for suffix, write in CLIP_WRITERS.items()},
     ".svg": _svg,
     ".png": _png,
+    ".eaf": _eaf,
 }
 SUFFIXES = tuple(WRITERS)
 """Suffixes of the formats that a compilation can be saved in, but for films."""

@@ -16,7 +16,7 @@ from azee.cli.outputs import check_outputs, with_suffix
 from azee.cli.profile import Profile
 from azee.cli.text import Text, dominant_option, text_options
 from azee.compilation import perform
-from azee.formats import WRITERS
+from azee.formats import FILM_SUFFIXES, WRITERS
 from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
     return value
 
 
-@click.command("compile", short_help="A text as GLB, BVH, JSON, SVG or PNG.")
+@click.command("compile", short_help="A text as a moving body: GLB, BVH, films and more.")
 @text_options
 @click.option(
     "-o",
@@ -45,6 +45,12 @@ def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
     callback=with_suffix(*WRITERS),
     help=f"A file to write; its suffix is the format: {' '.join(WRITERS)}. "
     "Repeatable: all come from one solution.",
+)
+@click.option(
+    "--media",
+    metavar="FILM",
+    type=click.Path(path_type=Path),
+    help="The film that an .eaf shows beside the score; by default one written along with it.",
 )
 @click.option(
     "--rig", metavar="R", default="signer", show_default=True, help="A body by name, or its folder."
@@ -97,6 +103,7 @@ def compile_(
     utterance: int | None,
     libraries: Sequence[Path],
     outputs: Sequence[Path],
+    media: Path | None,
     rig: str,
     fps: float,
     dominant: Hand,
@@ -115,6 +122,7 @@ def compile_(
     and --strict is given.
     """
     files = [*outputs, *([report] if report else [])]
+    media = media or next((p for p in outputs if p.suffix.lower() in FILM_SUFFIXES), None)
     watch = Profile()
     watch.load("numpy", "importing numpy")
     with watch.stage("loading the body"):
@@ -143,7 +151,7 @@ def compile_(
             for path in outputs:
                 progress.now(f"Writing {path} …")
                 with watch.stage(f"writing {path.name}"):
-                    made.save(path)
+                    made.save(path, media=media)
         if report:
             with watch.stage(f"writing {report.name}"):
                 made.save_report(report)

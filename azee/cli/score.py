@@ -27,13 +27,20 @@ if TYPE_CHECKING:
     metavar="OUT",
     multiple=True,
     type=click.Path(path_type=Path),
-    callback=with_suffix(".svg", ".png"),
-    help="Draw it into a file instead (.svg .png), nested and flattened; repeatable.",
+    callback=with_suffix(".svg", ".png", ".eaf"),
+    help="Draw it into a file instead, nested and flattened (.svg .png), or write it for ELAN "
+    "(.eaf); repeatable.",
 )
 @click.option(
     "--tracks",
     is_flag=True,
-    help="Solve it, and draw which block keys which part of the body, and when.",
+    help="Solve it, and show which block keys which part of the body, and when.",
+)
+@click.option(
+    "--media",
+    metavar="FILM",
+    type=click.Path(path_type=Path),
+    help="The video that an .eaf shows beside the score.",
 )
 @click.option(
     "--rig", metavar="R", default="signer", show_default=True, help="The body of --tracks."
@@ -46,6 +53,7 @@ def score(
     libraries: Sequence[Path],
     outputs: Sequence[Path],
     tracks: bool,
+    media: Path | None,
     rig: str,
     dominant: Hand,
 ) -> None:
@@ -53,7 +61,7 @@ def score(
     from azee.export.score_text import tree
 
     if tracks and not outputs:
-        raise click.UsageError("--tracks is drawn: name a picture with -o")
+        raise click.UsageError("--tracks is drawn: name a file with -o")
     check_outputs(outputs)
     found = Text.read(file, expression, utterance, libraries).score(dominant)
     if not outputs:
@@ -62,16 +70,20 @@ def score(
     keyed = _tracks(found, rig, dominant) if tracks else ()
     for path in outputs:
         with writing(path):
-            _write(found, path, keyed)
+            _write(found, path, keyed, media)
 
 
-def _write(found: Score, path: Path, keyed: Sequence[Track]) -> None:
+def _write(found: Score, path: Path, keyed: Sequence[Track], media: Path | None) -> None:
     from azee.export.track_rows import track_rows
 
     if path.suffix.lower() == ".svg":
         from azee.export.score_svg import write_svg
 
         write_svg(found, path, track_rows(keyed))
+    elif path.suffix.lower() == ".eaf":
+        from azee.export.eaf import write_eaf
+
+        write_eaf(found, path, track_rows(keyed), media=media)
     else:
         from azee.export.score_png import write_score_png
 

@@ -46,10 +46,13 @@ def read(path: Path) -> tuple[list[Pixels], Any]:
     """All frames of a film, RGB, and what its stream says of itself."""
     with av.open(str(path)) as container:
         stream = container.streams.video[0]
-        frames = [frame.to_ndarray(format="rgb24") for frame in container.decode(stream)]
+        frames = [
+            np.asarray(frame.to_ndarray(format="rgb24"), dtype=np.uint8)
+            for frame in container.decode(stream)
+        ]
         said = {
             "rate": stream.average_rate,
-            "seconds": float(container.duration) / 1e6,
+            "seconds": (container.duration or 0) / 1e6,
             "primaries": stream.codec_context.color_primaries,
             "matrix": stream.codec_context.colorspace,
             "range": stream.codec_context.color_range,

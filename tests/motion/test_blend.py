@@ -46,7 +46,7 @@ def printed(
     for n in range(1, m):
         if E[n] <= t < E[n] + a:
             fade_out = (E[n] + a - t) / a * S[n - 1](t - E[n - 1])
-            return fade_out + (t - E[n]) / a * S[n](t - E[n])
+            return np.asarray(fade_out + (t - E[n]) / a * S[n](t - E[n]))
         if E[n] + a <= t < E[n + 1]:
             return S[n](t - E[n])
     return S[m - 1](t - E[m - 1])

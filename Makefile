@@ -10,7 +10,7 @@ READY := $(ENV)/.ready
 PACKAGES := tests/node/node_modules/.package-lock.json
 TYPED := tests benchmarks examples
 
-.PHONY: help demo test check format bench fuzz examples pictures wheel-test node
+.PHONY: help demo test check format bench bench-solver bench-blender fuzz examples pictures wheel-test node
 
 help: ## what there is
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
@@ -34,7 +34,14 @@ format: $(READY) ## put every file into the one format
 
 bench: $(READY) ## how long things take
 	@$(RUN) benchmarks/run.py
-	@$(RUN) benchmarks/language_growth.py
+
+bench-solver: $(READY) ## inverse kinematics by ours, the published and other methods
+	@mkdir -p out
+	@$(RUN) benchmarks/run.py solver --json out/solver.json
+
+bench-blender: $(READY) ## the same, after installing Blender and pinocchio for themselves, 1 GB
+	@mkdir -p out
+	@$(RUN) benchmarks/run.py solver --prepare --json out/solver.json
 	@$(RUN) benchmarks/editor.py
 
 SECONDS ?= 60

@@ -11,7 +11,7 @@ import json
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib import import_module
 from pathlib import Path
 
@@ -56,7 +56,7 @@ def measure(text: str) -> dict[str, object]:
     }
 
 
-def main() -> None:
+def main(_: Sequence[str] = ()) -> None:
     """Print the table."""
     print(f"{'text':<42}{'parse':>9}{'check':>9}{'memory':>9}  diagnostic")
     for i, (name, _) in enumerate(texts()):

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import math
 import time
+from collections.abc import Sequence
 from fractions import Fraction
 
 from azee.motion.animate import animate
@@ -77,14 +78,14 @@ def text(signs: int) -> Score:
     return Group(start - Fraction(3, 10), arrangement=Arrangement.SEQ, blocks=tuple(blocks))
 
 
-def main() -> None:
+def main(arguments: Sequence[str] | None = None) -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("signs", nargs="*", type=int, default=[1, 10, 100])
     rig = load_rig()
     animate(text(1), rig)
     print("signs  clip s  keys  solves  solving ms/sign  motion ms/sign  unmet")
-    for signs in parser.parse_args().signs:
+    for signs in parser.parse_args(arguments).signs:
         began = time.perf_counter()
         animation = animate(text(signs), rig)
         whole, solving = time.perf_counter() - began, animation.report.solve_s

@@ -1,121 +1,226 @@
-"""How fast moments are solved, and how surely: `python benchmarks/solver_bench.py`.
+"""The solver against other methods on the same problems: `python benchmarks/run.py solver`.
 
-The sign tree at one place and at 36, touches of the face, and a target out of reach, on the
-signer that ships; then what a process pays before it can solve. Evaluations do not depend on the
-machine, times do: run it on one that does nothing else.
+On two bodies, the signer and its bare armature, every method gets the same problems, drawn with
+fixed seeds. Then whole signs and sentences, how time grows, and what a process pays before it can
+solve. Ratios are of medians within one run: on a busy machine only they mean much.
 """
 
 from __future__ import annotations
 
+import argparse
+import json
+import os
+import platform
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
-from dataclasses import replace
-from itertools import product
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
 
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
-from azee_solver.constraint import BoneAxis, Constraint, Orient, Place, Relation
-from azee_solver.demand import Demand
-from azee_solver.geometry import Bone, Dir, FreePoint, Side, Site, SitePoint, Vec, Vector
-from azee_solver.options import SolveOptions
-from azee_solver.report import SolveReport
-from azee_solver.solve import solve
+from benchmarks.ik import tables
+from benchmarks.ik.armature import bare_armature
+from benchmarks.ik.comparison import Row, compared
+from benchmarks.ik.elsewhere import BLENDER, PINOCCHIO, Environment, NotThere
+from benchmarks.ik.goals import Goal, goals_of
+from benchmarks.ik.methods import METHODS, Answer
+from benchmarks.ik.problems import Maker, Problem
+from benchmarks.ik.scaling import by_joints, by_moments, by_problems
+from benchmarks.ik.signs import EXAMPLES, example_tree, examples, signs
 
-S, W = Side.STRONG, Side.WEAK
-UP = Vec(0.0, 1.0, 0.0)
-RUNS = 9
-
-
-def along(axis: BoneAxis, bone: Bone, vector: Vector) -> Orient:
-    return Orient(axis, bone, Relation.ALONG, vector)
-
-
-def tree(place: FreePoint) -> list[Constraint]:
-    """The paper's eleven problems, without the thumb that its joints cannot follow."""
-    palm = Bone("palm", S)
-    fingers: list[Constraint] = []
-    for name in ("index", "middle", "ring", "little"):
-        first, second = Bone(name, S, 1), Bone(name, S, 2)
-        fingers += [
-            along(BoneAxis.DIR, first, Dir(palm)),
-            along(BoneAxis.DIR, second, Dir(first)),
-        ]
-    return [
-        Place(Site("H_BACK", W), place),
-        along(BoneAxis.NRM, Bone("palm", W), UP),
-        along(BoneAxis.DIR, Bone("palm", W), Dir(Bone("f_arm", W))),
-        Place(Site("EL", S), SitePoint(Site("PA", W)), contact=True),
-        along(BoneAxis.DIR, Bone("f_arm", S), UP),
-        along(BoneAxis.DIR, palm, UP),
-        *fingers,
-    ]
+TREE = EXAMPLES / "tree" / "tree.azee"
+WIDTH = 130
+"""Of a table, where nobody looks at a terminal."""
+PACKAGES = ("azee", "nlopt", "numba", "numpy", "scipy")
 
 
-def run(rig: Rig, constraints: Sequence[Constraint], options: SolveOptions) -> SolveReport:
-    demands = [Demand(c, rank=i) for i, c in enumerate(constraints)]
-    idle = rig.coordinates.idle
-    return solve(rig, demands, dominant=Side.RIGHT, start=idle, reference=idle, options=options)
+@dataclass
+class Findings:
+    """What a run has found so far."""
+
+    classes: list[list[Row]] = field(default_factory=list)
+    signs: list[dict[str, Any]] = field(default_factory=list)
+    scaling: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
+    process: dict[str, float] = field(default_factory=dict)
+    goals: list[Goal] = field(default_factory=list)
+    skipped: list[str] = field(default_factory=list)
+    versions: dict[str, str] = field(default_factory=dict)
+
+    def as_json(self, count: int) -> dict[str, object]:
+        return {
+            "machine": {
+                "processor": platform.processor() or platform.machine(),
+                "cores": os.cpu_count(),
+                "system": platform.platform(),
+                "python": platform.python_version(),
+                "load": os.getloadavg()[0] if hasattr(os, "getloadavg") else None,
+            },
+            "versions": self.versions,
+            "problems_per_class": count,
+            "comparison": [row.as_json() for rows in self.classes for row in rows],
+            "signs": self.signs,
+            "scaling": self.scaling,
+            "process": self.process,
+            "goals": [goal.as_json() for goal in self.goals],
+            "skipped": self.skipped,
+        }
 
 
-def show(what: str, reports: Sequence[SolveReport]) -> None:
-    met = sum(report.met for report in reports)
-    clear = sum(
-        report.met and all(o.depth_m <= 3e-3 for o in report.penetration) for report in reports
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run all of it, print tables as they come, and write the JSON."""
+    parser = argparse.ArgumentParser(prog="run.py solver", description=__doc__)
+    parser.add_argument("--json", type=Path, metavar="OUT", help="write all figures there")
+    parser.add_argument("--count", type=int, default=200, help="problems per class")
+    parser.add_argument("--body", choices=("armature", "signer"), help="compare on this one alone")
+    parser.add_argument("--only", choices=("comparison", "signs", "scaling", "process"))
+    parser.add_argument(
+        "--prepare",
+        action="store_true",
+        help="install Blender and pinocchio in environments of their own below out/, 1 GB",
     )
-    times = sorted(1000 * report.solve_s for report in reports)
-    evaluations = [report.evaluations for report in reports]
-    print(
-        f"{what:<38}{len(reports):>4}{met:>6}{clear:>7}{statistics.median(times):>10.1f}"
-        f"{times[-1]:>9.1f}{statistics.median(evaluations):>10.0f}{max(evaluations):>9}"
-    )
+    parser.add_argument("--inside", action="store_true", help="leave those two out")
+    given = parser.parse_args(arguments)
+    console = Console(width=max(Console().width, WIDTH))
+    found = Findings(versions={name: version(name) for name in PACKAGES})
+    parts: dict[str, Callable[[], None]] = {
+        "comparison": lambda: compare(
+            found,
+            console,
+            given.count,
+            given.body,
+            () if given.inside else _prepared(found, given.prepare),
+        ),
+        "signs": lambda: read_signs(found, console),
+        "scaling": lambda: scale(found, console, max(5, given.count // 10)),
+        "process": lambda: processes(found, console),
+    }
+    for name, part in parts.items():
+        if given.only in (None, name):
+            part()
+    console.print(tables.goals(found.goals))
+    for line in found.skipped:
+        console.print(f"skipped: {line}")
+    if given.json:
+        text = json.dumps(found.as_json(given.count), indent=1)
+        given.json.write_text(f"{text}\n", encoding="utf-8")
 
 
-def touch(site: Site) -> list[Constraint]:
-    return [Place(Site("I_TIP", S), SitePoint(site), contact=True)]
+def _prepared(found: Findings, prepare: bool) -> Sequence[Environment]:
+    """Environments that are there, made first if wanted; notes why others are not."""
+    there = []
+    for environment in (BLENDER, PINOCCHIO):
+        try:
+            if prepare:
+                environment.prepare()
+        except NotThere as reason:
+            found.skipped.append(str(reason))
+            continue
+        if environment.is_ready:
+            there.append(environment)
+        else:
+            found.skipped.append(f"{environment.name} is not installed: `make bench-blender`")
+    return there
 
 
-def before_solving() -> None:
-    """What a process pays: compiling once on a machine, loading the compiled each time."""
+def compare(
+    found: Findings,
+    console: Console,
+    count: int,
+    only: str | None,
+    environments: Sequence[Environment],
+) -> None:
+    """Compare all methods on the bare armature and, those that can, on the signer."""
+    signer = load_rig()
+    with tempfile.TemporaryDirectory() as folder:
+        other = {e.name: _caller(e, found, Path(folder)) for e in environments}
+        bodies = {"armature": (bare_armature(signer), other), "signer": (signer, {})}
+        for body, (rig, apart) in bodies.items():
+            if only not in (None, body):
+                continue
+            kinds = list(Maker(rig).classes())
+            for rows in compared(body, rig, kinds, count, METHODS, apart):
+                found.classes.append(rows)
+                console.print(tables.comparison(rows))
+    found.goals += goals_of(found.classes)
+
+
+def _caller(
+    environment: Environment, found: Findings, work: Path
+) -> Callable[[Rig, Sequence[Problem]], Sequence[Answer]]:
+    def solve(rig: Rig, problems: Sequence[Problem]) -> Sequence[Answer]:
+        found.versions[environment.name], answers = environment.solve(rig, problems, work)
+        return answers
+
+    return solve
+
+
+def read_signs(found: Findings, console: Console) -> None:
+    """Solve all examples."""
+    found.signs += signs(load_rig(), examples())
+    console.print(tables.signs(found.signs))
+    tree = 1000 * example_tree(load_rig(), TREE, runs=9)
+    found.goals.append(Goal("tree, full body, all on", tree, "ms", at_most=15))
+
+
+def scale(found: Findings, console: Console, repeats: int) -> None:
+    """Measure how time grows."""
+    rig = load_rig()
+    found.scaling = {
+        "problems in a moment": list(by_problems(rig, repeats)),
+        "moments": list(by_moments(rig)),
+        "coordinates in a chain": list(by_joints(rig, repeats)),
+    }
+    console.print(tables.scaling(found.scaling))
+
+
+def processes(found: Findings, console: Console) -> None:
+    """Measure what a process pays: compiling once on a machine, all else each time."""
     code = (
         "import time, numba, nlopt, numpy; t = time.perf_counter(); "
         "import azee_solver.kernels; print(time.perf_counter() - t)"
     )
-    with tempfile.TemporaryDirectory() as cache:
+    with tempfile.TemporaryDirectory() as folder:
+        environment = os.environ | {
+            "NUMBA_CACHE_DIR": str(Path(folder) / "cache"),
+            "PYTHONPATH": os.pathsep.join(p for p in sys.path if p),
+        }
         for what in ("compiling the kernels, once", "loading the compiled kernels"):
             done = subprocess.run(
                 [sys.executable, "-c", code],
-                env={"NUMBA_CACHE_DIR": cache, "PYTHONPATH": ":".join(p for p in sys.path if p)},
+                env=environment,
                 capture_output=True,
                 text=True,
                 check=True,
             )
-            print(f"{what:<38}{float(done.stdout):>10.2f} s")
-    began = time.perf_counter()
-    subprocess.run([sys.executable, "-c", "import numba, nlopt, numpy"], check=True)
-    print(f"{'starting Python with numba':<38}{time.perf_counter() - began:>10.2f} s")
-
-
-def main() -> None:
-    rig = load_rig()
-    options = SolveOptions()
-    beside = FreePoint(-0.14, -0.24, 0.25)
-    run(rig, tree(beside), options)
-    print(f"{'':<38}{'':>4}{'met':>6}{'clear':>7}{'ms':>10}{'worst':>9}{'evals':>10}{'worst':>9}")
-    show("tree", [run(rig, tree(beside), options) for _ in range(RUNS)])
-    apart = replace(options, overlap=0.0, overlap_m=1.0)
-    show("tree, capsules off", [run(rig, tree(beside), apart) for _ in range(RUNS)])
-    grid = product((0.0, -0.08, -0.14, -0.2), (-0.2, -0.24, -0.28), (0.2, 0.24, 0.28))
-    show("tree at 36 places", [run(rig, tree(FreePoint(*p)), options) for p in grid])
-    face = [Site("CH"), Site("FH"), Site("NO"), Site("CK", S), Site("CK", W), Site("EAR", S)]
-    show("fingertip on the face", [run(rig, touch(site), options) for site in face])
-    far = [Place(Site("I_TIP", S), FreePoint(-0.5, 0.3, 1.2))]
-    show("out of reach, with the reason", [run(rig, far, options) for _ in range(3)])
-    before_solving()
-
-
-if __name__ == "__main__":
-    main()
+            found.process[what] = float(done.stdout)
+        out = Path(folder) / "tree.glb"
+        command = [sys.executable, "-m", "azee", "compile", str(TREE), "-o", str(out), "--quiet"]
+        whole = []
+        for _ in range(6):
+            began = time.perf_counter()
+            subprocess.run(command, check=True, capture_output=True)
+            whole.append(time.perf_counter() - began)
+        found.process["azee compile tree, whole process, warm"] = statistics.median(whole[1:])
+        done = subprocess.run(
+            [*command, "--profile", "--format", "json"], check=True, capture_output=True, text=True
+        )
+        for stage in json.loads(done.stdout)["profile"]["stages"]:
+            if stage["within"] is None:
+                found.process[f"  {stage['name']}"] = stage["seconds"]
+    console.print(tables.processes(found.process))
+    found.goals.append(
+        Goal(
+            "azee compile tree, whole process, warm",
+            found.process["azee compile tree, whole process, warm"],
+            "s",
+            at_most=1.2,
+        )
+    )

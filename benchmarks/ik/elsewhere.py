@@ -29,6 +29,7 @@ from benchmarks.ik.problems import TIGHT, Problem
 
 OUT = Path(__file__).parents[2] / "out"
 HERE = Path(__file__).parent
+READY = ".ready"
 
 
 class NotThere(Exception):  # noqa: N818 - it is no fault
@@ -58,10 +59,15 @@ class Environment:
         windows = sys.platform == "win32"
         return self.folder / ("Scripts/python.exe" if windows else "bin/python")
 
+    @property
+    def is_ready(self) -> bool:
+        """Whether it is there, with the version that is asked for."""
+        ready = self.folder / READY
+        return ready.exists() and ready.read_text(encoding="utf-8") == self.package
+
     def prepare(self) -> None:
-        """Make the environment unless it is there. Raises: NotThere."""
-        ready = self.folder / ".ready"
-        if ready.exists() and ready.read_text(encoding="utf-8") == self.package:
+        """Make the environment unless it is there. Raises: NotThere: it cannot be made."""
+        if self.is_ready:
             return
         venv.create(self.folder, clear=True, with_pip=True)
         command = [str(self.python), "-m", "pip", "install", "--quiet", self.package, "numpy"]
@@ -69,11 +75,10 @@ class Environment:
         if done.returncode:
             last = (done.stderr.strip().splitlines() or ["pip gave no reason"])[-1]
             raise NotThere(f"{self.package} cannot be installed: {last}")
-        ready.write_text(self.package, encoding="utf-8")
+        (self.folder / READY).write_text(self.package, encoding="utf-8")
 
     def solve(self, rig: Rig, problems: Sequence[Problem], work: Path) -> tuple[str, list[Answer]]:
-        """Return which version answered, and its answers. Raises: NotThere."""
-        self.prepare()
+        """Return which version answered, and its answers. Raises: NotThere: it has failed."""
         asked, answered = work / "problems.json", work / "answers.json"
         task = {"chain": chain_json(rig), "problems": [self._json(rig, p) for p in problems]}
         asked.write_text(json.dumps(task), encoding="utf-8")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
@@ -15,7 +14,6 @@ from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
-from azee_solver.nlopt_backend import minimise
 from azee_solver.options import SolveOptions
 from azee_solver.program import Collisions, Cost, Program
 from azee_solver.report import SolveReport
@@ -24,6 +22,7 @@ from azee_solver.solve import solve
 from azee_solver.starts import starts
 from azee_solver.tape import Tape
 from azee_solver.two_level import solve_two_level
+from benchmarks.ik.clock import Clock
 from benchmarks.ik.levenberg import NOTHING, Flat
 from benchmarks.ik.problems import TIGHT, Problem
 
@@ -54,7 +53,7 @@ def ours(options: SolveOptions) -> Method:
 
     def method(rig: Rig, problem: Problem) -> Answer:
         idle = rig.coordinates.idle
-        began = time.perf_counter()
+        clock = Clock()
         report = solve(
             rig,
             problem.demands,
@@ -63,7 +62,7 @@ def ours(options: SolveOptions) -> Method:
             reference=idle,
             options=options,
         )
-        return _answer(report, began)
+        return _answer(report, clock)
 
     return method
 
@@ -71,14 +70,14 @@ def ours(options: SolveOptions) -> Method:
 def two_level(rig: Rig, problem: Problem) -> Answer:
     """Listing 1 of the 2018 paper."""
     idle = rig.coordinates.idle
-    began = time.perf_counter()
+    clock = Clock()
     report = solve_two_level(rig, problem.demands, dominant=Side.RIGHT, start=idle, reference=idle)
     rounds = tuple(p.iterations for p in report.problems if p.iterations is not None)
-    return replace(_answer(report, began), rounds=rounds)
+    return replace(_answer(report, clock), rounds=rounds)
 
 
-def _answer(report: SolveReport, began: float) -> Answer:
-    return Answer(report.coordinates, time.perf_counter() - began, report.evaluations)
+def _answer(report: SolveReport, clock: Clock) -> Answer:
+    return Answer(report.coordinates, clock.seconds(), report.evaluations)
 
 
 def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
@@ -99,23 +98,20 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
     program = Program(rig, idle, free, tape, residuals.rows, Collisions.none(), cost)
     known = list(starts(rig.coordinates, program.free, idle, 6))
     best, worst = idle[free], math.inf
-    began = time.perf_counter()
+    clock = Clock()
     for start in known:
-        found = minimise(
-            program,
-            start,
-            program.lower,
-            program.upper,
-            max_evaluations=FULL.max_evaluations,
-            tolerance=FULL.descent_tolerance,
+        x = program.descend(
+            start, max_evaluations=FULL.max_evaluations, tolerance=FULL.descent_tolerance
         )
-        program(found.x, np.empty(0))
+        x = program.polish(x, rounds=FULL.polish_rounds, tolerance=FULL.polish_tolerance)
+        program(x, np.empty(0))
         ratio = max(residuals.ratios(program.gaps(), asked, FULL.tolerance).values())
         if ratio < worst:
-            best, worst = found.x, ratio
+            best, worst = x, ratio
         if worst <= 1.0:
             break
-    seconds = time.perf_counter() - began
+    best = program.polish(best, rounds=FULL.finish_rounds, tolerance=FULL.finish_tolerance)
+    seconds = clock.seconds()
     q = idle
     q[free] = best
     return Answer(q, seconds, program.evaluations)
@@ -133,7 +129,7 @@ def yardstick(*, ease: bool) -> Method:
         keep = math.sqrt(FULL.posture) * stiffness if ease else NOTHING
         known = list(_random_starts(rig, flat))
         best, worst, evaluations = known[0], math.inf, 0
-        began = time.perf_counter()
+        clock = Clock()
         for start in known:
             q, count = flat.descend(start, keep)
             evaluations += count
@@ -142,7 +138,7 @@ def yardstick(*, ease: bool) -> Method:
                 best, worst = q, far
             if worst <= 1.0:
                 break
-        return Answer(best, time.perf_counter() - began, evaluations)
+        return Answer(best, clock.seconds(), evaluations)
 
     return method
 
@@ -152,7 +148,7 @@ def scipy_trf(rig: Rig, problem: Problem) -> Answer:
     flat = Flat(rig, problem.constraints, problem.free, TIGHT)
     known = list(_random_starts(rig, flat))
     best, worst, evaluations = known[0], math.inf, 0
-    began = time.perf_counter()
+    clock = Clock()
     for start in known:
         q = start.copy()
 
@@ -176,7 +172,7 @@ def scipy_trf(rig: Rig, problem: Problem) -> Answer:
             best, worst = posture(found.x).copy(), far
         if worst <= 1.0:
             break
-    return Answer(best, time.perf_counter() - began, evaluations)
+    return Answer(best, clock.seconds(), evaluations)
 
 
 def _random_starts(rig: Rig, flat: Flat) -> Iterator[Array]:

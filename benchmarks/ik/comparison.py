@@ -1,0 +1,187 @@
+"""All methods on all problems: every answer measured anew, and what comes of it in figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from azee_rig.rig import Rig
+from azee_solver.anatomy import anatomy
+from azee_solver.collisions import Obstacles
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import Side
+from benchmarks.ik.methods import Answer, Method
+from benchmarks.ik.problems import LOOSE, TIGHT, Maker, Problem
+
+WORST = 3
+"""How many of the worst misses are kept."""
+
+
+@dataclass(frozen=True, slots=True)
+class Miss:
+    """The worst residuals of one answer, metres and radians."""
+
+    number: int
+    length_m: float
+    angle_rad: float
+
+    def within(self, tolerance: tuple[float, float]) -> bool:
+        """Whether all constraints are met."""
+        return self.length_m <= tolerance[0] and self.angle_rad <= tolerance[1]
+
+    @property
+    def size(self) -> float:
+        """In our tolerances."""
+        return max(self.length_m / TIGHT[0], self.angle_rad / TIGHT[1])
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """What a method did on a class of problems.
+
+    residuals: of every answer. overlaps_m: of its deepest pair of capsules beyond meant contacts,
+    empty on a body without. excess_rad: how far the worst coordinate leaves its limits; 0 for
+    none. rounds: of the two-level method, per IK problem, all problems together.
+    """
+
+    body: str
+    kind: str
+    method: str
+    seconds: tuple[float, ...]
+    evaluations: tuple[int, ...]
+    residuals: tuple[Miss, ...]
+    overlaps_m: tuple[float, ...]
+    excess_rad: float
+    rounds: tuple[int, ...]
+
+    @property
+    def median_s(self) -> float:
+        return float(np.median(self.seconds))
+
+    @property
+    def p95_s(self) -> float:
+        return float(np.percentile(self.seconds, 95))
+
+    def met(self, tolerance: tuple[float, float]) -> int:
+        """How many problems were solved to a tolerance."""
+        return sum(miss.within(tolerance) for miss in self.residuals)
+
+    def as_json(self) -> dict[str, object]:
+        worst = sorted(self.residuals, key=lambda miss: -miss.size)[:WORST]
+        return {
+            "body": self.body,
+            "class": self.kind,
+            "method": self.method,
+            "problems": len(self.seconds),
+            "median_s": self.median_s,
+            "p95_s": self.p95_s,
+            "median_evaluations": float(np.median(self.evaluations)),
+            "met_1mm_05deg": self.met(TIGHT),
+            "met_1cm_5deg": self.met(LOOSE),
+            "deepest_overlap_m": max(self.overlaps_m, default=None),
+            "median_overlap_m": float(np.median(self.overlaps_m)) if self.overlaps_m else None,
+            "limit_excess_deg": math.degrees(self.excess_rad),
+            "worst": [
+                {
+                    "problem": miss.number,
+                    "length_m": miss.length_m,
+                    "angle_deg": math.degrees(miss.angle_rad),
+                }
+                for miss in worst
+            ],
+            "rounds": list(self.rounds),
+        }
+
+
+def row(
+    body: str, rig: Rig, method: str, problems: Sequence[Problem], answers: Sequence[Answer]
+) -> Row:
+    """Measure answers by forward kinematics that is none of the methods' own."""
+    evaluator = Evaluator(rig, Side.RIGHT)
+    limits = rig.coordinates
+    excess = max(float(np.max(np.maximum(limits.lower - a.q, a.q - limits.upper))) for a in answers)
+    return Row(
+        body,
+        problems[0].kind,
+        method,
+        tuple(a.seconds for a in answers),
+        tuple(a.evaluations for a in answers),
+        tuple(_miss(evaluator, p, a) for p, a in zip(problems, answers, strict=True)),
+        tuple(_overlap(evaluator, p, a) for p, a in zip(problems, answers, strict=True))
+        if len(rig.capsules.pairs)
+        else (),
+        max(0.0, excess),
+        tuple(count for a in answers for count in a.rounds),
+    )
+
+
+def _miss(evaluator: Evaluator, problem: Problem, answer: Answer) -> Miss:
+    frames = evaluator.rig.chain.frames(answer.q)
+    worst = {"m": 0.0, "rad": 0.0}
+    for constraint in problem.constraints:
+        residual, unit = evaluator.residual(constraint, frames, answer.q)
+        worst[unit] = max(worst[unit], float(residual))
+    return Miss(problem.number, worst["m"], worst["rad"])
+
+
+def _overlap(evaluator: Evaluator, problem: Problem, answer: Answer) -> float:
+    rig = evaluator.rig
+    built = anatomy(rig.chain, rig.coordinates)
+    found = Obstacles(evaluator.binding, built, problem.constraints).overlaps(
+        rig.chain.frames(answer.q)
+    )
+    return max((overlap.depth_m for overlap in found), default=0.0)
+
+
+def compared(
+    body: str,
+    rig: Rig,
+    kinds: Sequence[str],
+    count: int,
+    methods: Mapping[str, Method],
+    elsewhere: Mapping[str, Callable[[Rig, Sequence[Problem]], Sequence[Answer]]],
+) -> Iterator[list[Row]]:
+    """Yield the rows of one class after the other; each method warms up on the first problem."""
+    maker = Maker(rig)
+    for kind in kinds:
+        problems = list(maker.problems(kind, count))
+        rows = []
+        for name, method in methods.items():
+            method(rig, problems[0])
+            rows.append(row(body, rig, name, problems, [method(rig, p) for p in problems]))
+        for name, solve in elsewhere.items():
+            rows.append(row(body, rig, name, problems, solve(rig, problems)))
+        yield rows
+
+
+def behind_best(rows: Sequence[Row]) -> dict[str, float]:
+    """How far each method's worst answer stays behind the best that any has, metres.
+
+    For problems that cannot be solved: the nearest posture is what is asked.
+    """
+    best = [min(misses, key=lambda m: m.length_m) for misses in _by_problem(rows)]
+    return {
+        r.method: max(
+            mine.length_m - other.length_m for mine, other in zip(r.residuals, best, strict=True)
+        )
+        for r in rows
+    }
+
+
+def of_solvable(rows: Sequence[Row]) -> dict[str, tuple[int, int]]:
+    """How many of the problems that any method solves each one does, and of how many."""
+    solvable = [any(miss.within(TIGHT) for miss in misses) for misses in _by_problem(rows)]
+    return {
+        r.method: (
+            sum(m.within(TIGHT) for m, can in zip(r.residuals, solvable, strict=True) if can),
+            sum(solvable),
+        )
+        for r in rows
+    }
+
+
+def _by_problem(rows: Sequence[Row]) -> list[tuple[Miss, ...]]:
+    return list(zip(*(r.residuals for r in rows), strict=True))

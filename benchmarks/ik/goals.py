@@ -1,0 +1,100 @@
+"""What the comparison must show, each figure beside its goal, also where it misses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from benchmarks.ik.comparison import Row, behind_best, of_solvable
+from benchmarks.ik.problems import TIGHT
+
+FULL, APART, LAID_OUT = "ours, everything on", "ours, no collision", "ours, descents alone"
+PLAIN, EASED = "LM kernel", "LM kernel with ease"
+ITASC = "Blender iTaSC"
+REACHABLE = ("place", "place, 1 orientation", "4 orientations", "place, 2 at stops")
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """A figure and the bound it should keep; none if it is only to be seen."""
+
+    what: str
+    value: float
+    unit: str = ""
+    at_least: float | None = None
+    at_most: float | None = None
+
+    @property
+    def kept(self) -> bool | None:
+        """Whether the figure keeps its bounds; none if it has none."""
+        if self.at_least is None and self.at_most is None:
+            return None
+        low = -float("inf") if self.at_least is None else self.at_least
+        high = float("inf") if self.at_most is None else self.at_most
+        return low <= self.value <= high
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "what": self.what,
+            "value": self.value,
+            "unit": self.unit,
+            "at_least": self.at_least,
+            "at_most": self.at_most,
+            "kept": self.kept,
+        }
+
+
+def goals_of(classes: Sequence[Sequence[Row]]) -> list[Goal]:
+    """Return the figures that follow from the rows of all classes, one sequence per class."""
+    goals: list[Goal] = []
+    for rows in classes:
+        by_method = {row.method: row for row in rows}
+        body, kind = rows[0].body, rows[0].kind
+        where = f"{body}, {kind}"
+        if kind in REACHABLE:
+            goals += [_solved(by_method[name], where) for name in (FULL, APART)]
+        if kind == "two-handed contact":
+            shares = of_solvable(rows)
+            goals += [
+                Goal(f"{where}: of what any method solves, {m}", 100 * a / b, "%", at_least=98)
+                for m, (a, b) in shares.items()
+                if m in (FULL, APART) and b
+            ]
+        if kind == "unreachable":
+            behind = behind_best(rows)
+            goals += [
+                Goal(f"{where}: behind the best, {m}", 1000 * behind[m], "mm", at_most=0.5)
+                for m in (APART,)
+            ]
+        excess = max(by_method[name].excess_rad for name in (FULL, APART))
+        goals.append(Goal(f"{where}: beyond limits, ours", excess, "rad", at_most=0.0))
+        if ITASC in by_method:
+            ratio = _over(by_method[ITASC], by_method[APART])
+            bound = 10.0 if kind == "tree" else None
+            goals.append(Goal(f"{where}: iTaSC / ours", ratio, "×", at_least=bound))
+        if kind != "unreachable":
+            goals += _ratios(by_method, where, collisions=bool(by_method[FULL].overlaps_m))
+    return goals
+
+
+def _solved(row: Row, where: str) -> Goal:
+    share = 100 * row.met(TIGHT) / len(row.residuals)
+    return Goal(f"{where}: met at 1 mm / 0.5°, {row.method}", share, "%", at_least=100)
+
+
+def _ratios(by_method: dict[str, Row], where: str, *, collisions: bool) -> list[Goal]:
+    laid_out = by_method[LAID_OUT]
+    eased, plain = (_over(laid_out, by_method[name]) for name in (EASED, PLAIN))
+    goals = [
+        Goal(f"{where}: our descents / LM with ease", eased, "×"),
+        Goal(f"{where}: our descents / LM kernel", plain, "×", at_most=4),
+        Goal(f"{where}: our whole call / our descents", _over(by_method[APART], laid_out), "×"),
+    ]
+    if collisions:
+        ratio = _over(by_method[FULL], by_method[APART])
+        goals.append(Goal(f"{where}: collision on / off", ratio, "×", at_most=3))
+    return goals
+
+
+def _over(one: Row, other: Row) -> float:
+    return one.median_s / other.median_s

@@ -1,0 +1,57 @@
+"""Whole signs and sentences: the examples on one time line, by our solver and the published one."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Iterator
+from pathlib import Path
+
+from azee.compilation import Method, perform, score_of
+from azee.lang.program import load
+from azee_grammar.files import read_source
+from azee_rig.rig import Rig
+from benchmarks.ik.methods import METHODS
+from benchmarks.ik.problems import Problem
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SOLVERS: tuple[Method, ...] = ("grouped", "two-level")
+
+
+def examples() -> list[Path]:
+    """Sources that ship, in the order of their names."""
+    return sorted(EXAMPLES.glob("*/*.azee"))
+
+
+def example_tree(rig: Rig, source: Path, runs: int) -> float:
+    """Return how long the solver takes for the posture of the example, seconds."""
+    score = score_of(load(read_source(source)), None, None)
+    demands = perform(score, rig, mode="flat").report.postures[0].demands
+    asked = Problem("tree", 0, demands, ())
+    everything = METHODS["ours, everything on"]
+    return statistics.median(everything(rig, asked).seconds for _ in range(runs))
+
+
+def signs(rig: Rig, sources: list[Path]) -> Iterator[dict[str, object]]:
+    """Yield what solving a text takes and leaves, per source and solver."""
+    for source in sources:
+        score = score_of(load(read_source(source)), None, None)
+        for solver in SOLVERS:
+            perform(score, rig, mode="flat", solver=solver)
+            report = perform(score, rig, mode="flat", solver=solver).report
+            postures = [p for p in report.postures if not p.reused]
+            problems = [q for p in postures for q in p.report.problems]
+            rounds = [p.iterations for p in problems if p.iterations is not None]
+            deepest = [o.depth_m for p in postures for o in p.report.penetration]
+            yield {
+                "text": source.stem,
+                "solver": solver,
+                "problems": len(problems),
+                "key_postures": len(postures),
+                "solve_s": report.solve_s,
+                "explain_s": report.explain_s,
+                "evaluations": report.evaluations,
+                "constraints": len(report.constraints),
+                "unmet": sum(not c.met for c in report.constraints),
+                "deepest_overlap_m": max(deepest, default=0.0),
+                "rounds": rounds,
+            }

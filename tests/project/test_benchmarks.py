@@ -1,0 +1,119 @@
+"""The benchmarks run, at a tiny size, and their yardsticks measure what they say."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from azee_rig.rig import Rig
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import Side
+from benchmarks import solver_bench
+from benchmarks.ik.armature import bare_armature
+from benchmarks.ik.comparison import behind_best, compared, of_solvable
+from benchmarks.ik.elsewhere import Environment, NotThere, ordered_steps
+from benchmarks.ik.goals import REACHABLE, Goal
+from benchmarks.ik.levenberg import Flat
+from benchmarks.ik.methods import METHODS
+from benchmarks.ik.problems import TIGHT, Maker
+
+
+@pytest.mark.slow
+def test_all_methods_answer_all_classes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "out.json"
+    solver_bench.main(
+        [
+            "--count",
+            "1",
+            "--inside",
+            "--only",
+            "comparison",
+            "--body",
+            "armature",
+            "--json",
+            str(out),
+        ]
+    )
+    document = json.loads(out.read_text(encoding="utf-8"))
+    rows = {(r["body"], r["class"], r["method"]): r for r in document["comparison"]}
+    assert len(rows) == 7 * len(METHODS)
+    for (_, kind, method), row in rows.items():
+        assert row["median_s"] > 0
+        if kind in REACHABLE and method.startswith(("ours", "LM")):
+            assert row["met_1mm_05deg"] == 1
+        if method.startswith("ours"):
+            assert row["limit_excess_deg"] == 0
+    assert all(goal["kept"] in (True, False, None) for goal in document["goals"])
+    table = capsys.readouterr().out
+    assert "IK problems in" in table
+    assert "LM kernel" in table
+
+
+def test_problems_repeat_and_their_postures_solve_them(signer: Rig) -> None:
+    for rig in (bare_armature(signer), signer):
+        maker, evaluator = Maker(rig), Evaluator(rig, Side.RIGHT)
+        for kind in REACHABLE:
+            (first,), (again, _) = maker.problems(kind, 1), maker.problems(kind, 2)
+            assert first.demands == again.demands
+            assert first.truth is not None
+            assert np.all(rig.coordinates.lower <= first.truth)
+            assert np.all(first.truth <= rig.coordinates.upper)
+            frames = rig.chain.frames(first.truth)
+            for constraint in first.constraints:
+                residual, unit = evaluator.residual(constraint, frames, first.truth)
+                assert residual < 0.02 * TIGHT[unit == "rad"]
+
+
+@pytest.mark.slow
+def test_the_yardstick_s_jacobian_is_that_of_its_residuals(signer: Rig) -> None:
+    rng = np.random.default_rng(1)
+    for rig in (bare_armature(signer), signer):
+        (tree,) = Maker(rig).problems("tree", 1)
+        flat = Flat(rig, tree.constraints, tree.free, TIGHT)
+        q = rng.uniform(rig.coordinates.lower, rig.coordinates.upper)
+        _, jacobian = flat.residuals(q)
+        for column, v in enumerate(flat.free):
+            up, down = q.copy(), q.copy()
+            up[v] += 1e-6
+            down[v] -= 1e-6
+            slope = (flat.residuals(up)[0] - flat.residuals(down)[0]) / 2e-6
+            np.testing.assert_allclose(jacobian[:, column], slope, atol=1e-4)
+
+
+@pytest.mark.slow
+def test_ours_is_as_near_to_what_is_out_of_reach_as_any_method(signer: Rig) -> None:
+    names = ("ours, no collision", "LM kernel", "scipy trf")
+    chosen = {name: METHODS[name] for name in names}
+    rig = bare_armature(signer)
+    (rows,) = compared("armature", rig, ["unreachable"], 3, chosen, {})
+    assert behind_best(rows)["ours, no collision"] <= 1e-3
+    assert all(met <= of for met, of in of_solvable(rows).values())
+
+
+def test_the_tree_is_eleven_ordered_problems_for_others(signer: Rig) -> None:
+    rig = bare_armature(signer)
+    (tree,) = Maker(rig).problems("tree", 1)
+    steps = ordered_steps(rig, tree)
+    assert [len(indices) for _, indices in steps] == [3, 1, 4, *[1] * 8]
+    names = rig.coordinates.names
+    assert not any(names[v].startswith("arm_R") for v in steps[2][0])
+
+
+def test_an_environment_that_cannot_be_made_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    failed = subprocess.CompletedProcess([], 1, "", "much\nERROR: no matching distribution\n")
+    monkeypatch.setattr("venv.create", lambda *_, **__: None)
+    monkeypatch.setattr("subprocess.run", lambda *_, **__: failed)
+    nowhere = Environment("nothing", "azee-nothing==0", "none.py", ordered=True)
+    assert not nowhere.is_ready
+    with pytest.raises(NotThere, match="azee-nothing==0 cannot be installed: ERROR: no matching"):
+        nowhere.prepare()
+
+
+def test_a_goal_knows_whether_it_is_kept() -> None:
+    assert Goal("a", 2.0, at_most=1.0).kept is False
+    assert Goal("a", 2.0, at_least=2.0).kept is True
+    assert Goal("a", 2.0).kept is None

@@ -6,11 +6,13 @@ from enum import Enum
 
 from azee.assist.knowledge import Knowledge
 from azee.assist.lines import Line, read_lines
+from azee.lang.registry import NATIVES
 from azee.lang.resolve import Resolving
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.parser import parse
 from azee_grammar.source import Source
 from azee_grammar.syntax import Utterance
+from azee_grammar.token import HEADS
 
 _MISSING = frozenset({"missing-argument", "missing-value"})
 
@@ -48,6 +50,25 @@ def completeness(text: str, knowledge: Knowledge) -> Completeness:
 def unclosed(text: str) -> bool:
     """Whether a text ends inside parentheses."""
     return _open(read_lines(text).lines)
+
+
+def wants_deeper(line: str, knowledge: Knowledge) -> bool:
+    """Whether the operands of a line's head are to be expected on deeper lines.
+
+    That is so where some are missing, and where an operator that takes any number has none yet.
+    """
+    lines = read_lines(line.strip()).lines
+    if not lines or _open(lines):
+        return False
+    tokens = lines[0].tokens
+    head = tokens[-1] if tokens[0].kind == "SYMBOL" else tokens[0]
+    if head.kind not in HEADS:
+        return head.kind == "DEF"
+    if len(tokens) == 1 or tokens[0].kind == "SYMBOL":
+        native = NATIVES.get(head.text) if head.kind == "OPERATOR" else None
+        if native is not None and (native.operands or native.pattern):
+            return True
+    return completeness(line.strip()[head.start :], knowledge) is Completeness.LACKING
 
 
 def _open(lines: tuple[Line, ...]) -> bool:

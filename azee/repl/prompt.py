@@ -19,7 +19,7 @@ from prompt_toolkit.lexers import Lexer
 from prompt_toolkit.output import ColorDepth
 from prompt_toolkit.styles import Style
 
-from azee.assist.completeness import Completeness, completeness, unclosed
+from azee.assist.completeness import Completeness, completeness, wants_deeper
 from azee.assist.completion import completions
 from azee.assist.pieces import pieces
 from azee.assist.signature import signature
@@ -216,8 +216,7 @@ def _indentation(buffer: Buffer, repl: Repl) -> str:
     """Return the blanks of the line to come: as above, deeper below what lacks something."""
     line = buffer.document.current_line_before_cursor
     blanks = line[: len(line) - len(line.lstrip())]
-    lacking = completeness(line.strip(), repl.session.knowledge) is Completeness.LACKING
-    if not blanks or (lacking and not unclosed(line)):
+    if not blanks or wants_deeper(line, repl.session.knowledge):
         return blanks + INDENT
     return blanks
 

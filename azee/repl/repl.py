@@ -111,8 +111,12 @@ class Repl:
                 screen.say(f"using '{name}")
             case Defined(name=name, again=again, mistakes=mistakes):
                 screen.complain(mistakes)
-                screen.say(f"{'redefined' if again else 'defined'} :{name}")
-                return not mistakes
+                done = f"{'redefined' if again else 'defined'} :{name}"
+                if mistakes:
+                    count = "a mistake" if len(mistakes) == 1 else f"{len(mistakes)} mistakes"
+                    screen.say(f"{done}, with {count}", Ink.WARNING)
+                    return False
+                screen.say(done)
             case Evaluated(value=value):
                 screen.show(value_lines(value, screen.columns, colour=screen.colour))
                 if self.solving:

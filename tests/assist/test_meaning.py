@@ -7,7 +7,7 @@ from cursor import at_cursor, real_texts
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.assist.completeness import Completeness, completeness
+from azee.assist.completeness import Completeness, completeness, wants_deeper
 from azee.assist.completion import completions
 from azee.assist.description import describe
 from azee.assist.hover import hover
@@ -96,6 +96,25 @@ def test_the_operand_at_hand_is_known(text: str, operand: str) -> None:
 )
 def test_a_prompt_knows_when_more_must_follow(text: str, judged: Completeness) -> None:
     assert completeness(text, KNOWLEDGE) is judged
+
+
+@pytest.mark.parametrize(
+    ("line", "deeper"),
+    [
+        ("    cstr", True),
+        ("'SIG sync", True),
+        ("    key .5", True),
+        ("'INFO :info-about", True),
+        ("def x", True),
+        ("    :chat", False),
+        ("'SIG :chat", False),
+        ("    place @CH @FH", False),
+        ("    key .5 (look", False),
+        ("'x", False),
+    ],
+)
+def test_a_prompt_knows_where_deeper_lines_are_to_be_expected(line: str, deeper: bool) -> None:
+    assert wants_deeper(line, KNOWLEDGE) is deeper
 
 
 @pytest.mark.parametrize("text", TEXTS)

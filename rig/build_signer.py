@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from azee_rig.build.anatomy import SIDES, read_anatomy
+from azee_rig.build.bends import Bend
 from azee_rig.build.capsules import fit_capsules
 from azee_rig.build.chain_builder import build_chain
 from azee_rig.build.coordinates import coordinate_names, read_coordinates
@@ -75,17 +76,18 @@ def main(wheel: Path, folder: Path) -> None:
     names = coordinate_names(DATA / "coordinates.csv")
     built = build_chain(anatomy, names)
     coordinates = read_coordinates(DATA / "coordinates.csv", built.bind)
+    bends = [
+        Bend(joint, bend["bone"], tuple(bend["near"]), bend["helpers"])
+        for joint, bend in mapped["bends"].items()
+    ]
     made = build_joints(
-        body, anatomy, built, bones, mapped["kept"], mapped["twist"], mapped["helpers"], names
+        body, anatomy, built, bones, mapped["kept"], mapped["twist"], bends, coordinates
     )
     units = tuple(body.shapes)
     mesh = assemble(dress(body, whole_body(body, made.weights, units), anatomy, regions), units)
     surface = Surface(mesh, made.skeleton)
     frames = built.chain.frames(coordinates.bind)
-    flesh = {"root": ("root",)} | {
-        bone: (*joints, *(h for h, (bending, *_) in mapped["helpers"].items() if bending in joints))
-        for bone, joints in bones.items()
-    }
+    flesh = {"root": ("root",), **made.flesh}
     placer = SitePlacer(surface, anatomy, frames, built.chain.names, built.bones, flesh)
     sites = [placer.place(rule) for rule in read_rules(DATA / "site_rules.csv")]
     expressed, not_expressed = read_face_morphs(DATA / "face_morphs.json", units)

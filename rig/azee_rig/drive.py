@@ -1,4 +1,4 @@
-"""How the joints of a body follow the chain: whole nodes, shared twist, halved bends.
+"""How the joints of a body follow the chain: whole nodes, shared twist, shared bends.
 
 A joint takes the rotation of one node, counted from the posture that the mesh was modelled in, so
 that the mesh is itself exactly there. Two refinements keep skin from collapsing without leaving
@@ -6,7 +6,8 @@ what BVH and glTF can play:
 
 - twist: a joint of a limb leaves out a part of the turn about the limb's axis, so that pronation
   spreads along the forearm instead of wringing one joint;
-- half: a helper joint turns by half of what its neighbour bends, and carries the skin in between.
+- helpers: a helper joint turns by a share of what its neighbour bends, and carries the skin in
+  between.
 
 Joints stay where the chain puts them: twisted joints lie on their limb's axis, helpers at their
 neighbour's origin.
@@ -20,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.chain import DIR, Chain
-from azee_rig.rotation import about_axis, half_turn, to_quaternions
+from azee_rig.rotation import about_axis, part_turn, to_quaternions
 from azee_rig.skeleton import Pose, Skeleton, frozen
 
 Floats = NDArray[np.float64]
@@ -33,20 +34,22 @@ class Drive:
     node: (J,) node whose rotation the joint takes; −1 for a joint that stays at rest.
     twist_coordinate: (J,) coordinate of the turn that is partly left out; −1 where none is.
     twist_left_out: (J,) signed share of it that is left out.
-    half_of: (J,) joint whose bend a helper halves, both having the same parent; −1 for others.
+    helper_of: (J,) joint whose bend a helper shares, both having the same parent; −1 for others.
+    helper_share: (J,) share of that bend, 0 … 1.
     bind: (B, 3, 3) frames of the nodes in the mesh's own posture.
     """
 
     node: NDArray[np.int64]
     twist_coordinate: NDArray[np.int64]
     twist_left_out: Floats
-    half_of: NDArray[np.int64]
+    helper_of: NDArray[np.int64]
+    helper_share: Floats
     bind: Floats
 
     def __post_init__(self) -> None:
-        for name in ("node", "twist_coordinate", "half_of"):
+        for name in ("node", "twist_coordinate", "helper_of"):
             object.__setattr__(self, name, frozen(getattr(self, name), np.int64))
-        for name in ("twist_left_out", "bind"):
+        for name in ("twist_left_out", "helper_share", "bind"):
             object.__setattr__(self, name, frozen(getattr(self, name), np.float64))
 
     def pose(self, q: Floats, bind_q: Floats, chain: Chain, skeleton: Skeleton) -> Pose:
@@ -58,7 +61,7 @@ class Drive:
         local = np.empty_like(world)
         for j, n in enumerate(self.node):
             p = skeleton.parents[j]
-            if self.half_of[j] >= 0:
+            if self.helper_of[j] >= 0:
                 continue
             if n < 0:
                 world[..., j, :, :] = np.eye(3) if p < 0 else world[..., p, :, :]
@@ -73,9 +76,10 @@ class Drive:
                 if p < 0
                 else np.swapaxes(world[..., p, :, :], -1, -2) @ world[..., j, :, :]
             )
-        rotations = to_quaternions(local[..., self.half_of < 0, :, :])
+        rotations = to_quaternions(local[..., self.helper_of < 0, :, :])
         out = np.empty((*batch, len(self.node), 4))
-        out[..., self.half_of < 0, :] = rotations
-        for helper in np.flatnonzero(self.half_of >= 0):
-            out[..., helper, :] = half_turn(out[..., self.half_of[helper], :])
+        out[..., self.helper_of < 0, :] = rotations
+        for helper in np.flatnonzero(self.helper_of >= 0):
+            bend = out[..., self.helper_of[helper], :]
+            out[..., helper, :] = part_turn(bend, self.helper_share[helper])
         return Pose(np.zeros((*batch, 3)), out)

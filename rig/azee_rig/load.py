@@ -112,7 +112,8 @@ def _read_drive(rows: Sequence[Mapping[str, Any]], chain: Chain, coordinates: Co
         node=_ints(rows, "node"),
         twist_coordinate=_ints(rows, "twist"),
         twist_left_out=_floats(rows, "left_out"),
-        half_of=_ints(rows, "half_of"),
+        helper_of=_ints(rows, "helper_of"),
+        helper_share=_floats(rows, "share"),
         bind=chain.frames(coordinates.bind).rotations,
     )
 

@@ -66,11 +66,13 @@ def to_matrices(q: Floats) -> Floats:
     return R
 
 
-def half_turn(q: Floats) -> Floats:
-    """Rotations by half the angle about the same axes: unit quaternions with w ≥ 0, (…, 4).
+def part_turn(q: Floats, share: float) -> Floats:
+    """Rotations by a share, 0 … 1, of the angle about the same axes: unit quaternions, (…, 4).
 
-    Half of a full half-turn (w = 0) is still well defined: the axis is.
+    The shorter way round: q with w < 0 counts as −q.
     """
-    half = np.array(q, dtype=np.float64)
-    half[..., 0] += 1.0
-    return np.asarray(half / np.linalg.norm(half, axis=-1, keepdims=True))
+    q = np.where(q[..., :1] < 0.0, -q, q)
+    sine = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
+    angle = share * np.arctan2(sine, q[..., :1])
+    along = np.where(sine > 1e-12, np.sin(angle) / np.where(sine > 1e-12, sine, 1.0), share)
+    return np.concatenate([np.cos(angle), along * q[..., 1:]], axis=-1)

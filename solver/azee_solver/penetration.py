@@ -105,7 +105,7 @@ def _joint_regions(rig: Rig, structure: Anatomy) -> NDArray[np.str_]:
     head = rig.bones["neck"].origin_node
     out = []
     for j in range(len(rig.skeleton.names)):
-        source = int(rig.drive.half_of[j])
+        source = int(rig.drive.helper_of[j])
         node = int(rig.drive.node[source if source >= 0 else j])
         name = "trunk"
         if node >= 0:

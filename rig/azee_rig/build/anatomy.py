@@ -43,21 +43,10 @@ def read_anatomy(
     bones: Mapping[str, Sequence[str]],
     nails: Mapping[str, NDArray[np.int64]],
 ) -> Anatomy:
-    """Take the anatomy from a body through its bones-map.
-
-    Joints in the middle of a limb are moved onto the line between its ends, so that a limb can
-    share its twist among them and still have its far end where the chain puts it.
-    """
+    """Take the anatomy from a body through its bones-map."""
     place = dict(zip(body.joints, body.heads, strict=True))
     end = dict(zip(body.joints, body.tails, strict=True))
     joints = {bone: [place[j] for j in chain] for bone, chain in bones.items()}
-    for side in SIDES:
-        for bone, following in (("arm", "f_arm"), ("f_arm", "palm")):
-            near, far = joints[f"{bone}_{side}"][0], joints[f"{following}_{side}"][0]
-            joints[f"{bone}_{side}"] = [
-                near + (far - near) * ((p - near) @ (far - near)) / ((far - near) @ (far - near))
-                for p in joints[f"{bone}_{side}"]
-            ]
     gaze = {s: unit(end[bones[f"eye_{s}"][0]] - joints[f"eye_{s}"][0]) for s in SIDES}
     return Anatomy(
         joints=joints,

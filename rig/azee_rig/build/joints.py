@@ -1,4 +1,10 @@
-"""The skeleton that a rig exports: joints kept, the others merged into them, helpers added."""
+"""The skeleton that a rig exports: joints kept, the others merged into them, helpers added.
+
+Linear blending loses flesh where two joints that pull at the same skin turn far apart: half-way
+between turns that differ by θ, skin comes nearer to the axis by cos(θ/2). So no two neighbours
+may differ by much: the turn about a limb's axis is spread over joints along it, and a bend over
+helpers that take a share of it each. Skin lies between two of them, and on no others.
+"""
 
 from __future__ import annotations
 
@@ -9,23 +15,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.build.anatomy import SIDES, Anatomy
+from azee_rig.build.bends import Bend, between, share_bend
 from azee_rig.build.chain_builder import BuiltChain
 from azee_rig.build.makehuman import Body
+from azee_rig.coordinates import Coordinates
 from azee_rig.drive import Drive
 from azee_rig.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
+Shares = Mapping[str, float]
+"""Joints along a limb, proximal first, and the share of its turn that each takes: 0 … 1."""
 
 TWIST_COORDINATE = {"arm": "rotation", "f_arm": "pronation"}
+FOLLOWING = {"arm": "f_arm", "f_arm": "palm"}
+"""The bone at whose origin a limb ends."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BuiltJoints:
-    """A skeleton, how it follows the chain, and the body's weights on its joints (N, J)."""
+    """A skeleton, how it follows the chain, and the body's weights on its joints (N, J).
+
+    flesh: all joints, helpers too, that move with an AZee bone.
+    """
 
     skeleton: Skeleton
     drive: Drive
     weights: Floats
+    flesh: Mapping[str, tuple[str, ...]]
 
 
 def build_joints(
@@ -34,106 +50,139 @@ def build_joints(
     built: BuiltChain,
     bones: Mapping[str, Sequence[str]],
     kept: Sequence[str],
-    twist: Mapping[str, Sequence[float]],
-    helpers: Mapping[str, Sequence[str]],
-    coordinate_names: Sequence[str],
+    twist: Mapping[str, Shares],
+    bends: Sequence[Bend],
+    coordinates: Coordinates,
 ) -> BuiltJoints:
     """Merge, place and drive the joints of a body.
 
-    Args: bones: joints per AZee bone. kept: further joints that never move. twist: share of a
-    limb's turn per joint. helpers: per helper joint the joint whose bend it halves, then the
-    joints from which, besides that one, it takes over the skin in between.
+    Args: bones: joints per AZee bone. kept: further joints that never move. twist: per limb its
+    joints; those that the body has not got are added. bends: those of the hand before the wrist.
     """
-    bone_of = {joint: bone for bone, chain in bones.items() for joint in chain}
-    names = [j for j in body.joints if j in bone_of or j in kept]
-    merged, parents = _merge(body, names)
-    places = {j: p for j, p in zip(body.joints, body.heads, strict=True) if j in names}
+    own = {joint for chain in bones.values() for joint in chain} | set(kept)
+    names = [j for j in body.joints if j in own]
+    above = {j: _nearest(body, j, own) for j in names}
+    places = {j: p for j, p in zip(body.joints, body.heads, strict=True) if j in own}
     for bone, chain in bones.items():
         places |= dict(zip(chain, anatomy.joints[bone], strict=True))
-    half_of = [-1] * len(names)
-    for helper, (bending, *_) in helpers.items():
-        parents.append(parents[names.index(bending)])
-        half_of.append(names.index(bending))
-        places[helper] = places[bending]
-        names.append(helper)
-    where = np.array([places[n] for n in names])
-    offsets = [p if up < 0 else p - where[up] for p, up in zip(where, parents, strict=True)]
-    skeleton = Skeleton(tuple(names), np.array(parents), np.array(offsets))
-    drive = _drive(skeleton, built, bones, bone_of, twist, half_of, coordinate_names)
-    weights = np.pad(merged, ((0, 0), (0, len(helpers))))
+    members = {bone: tuple(chain) for bone, chain in bones.items()}
+    for bone, shares in twist.items():
+        start, along = _limb(anatomy, bone)
+        last, chain = bones[bone][-1], tuple(shares)
+        names[names.index(last) + 1 : names.index(last) + 1] = chain[len(bones[bone]) :]
+        above |= {j: chain[-1] for j, parent in above.items() if parent == last}
+        above |= dict(zip(chain[1:], chain, strict=False))
+        places |= {joint: start + share * along for joint, share in shares.items()}
+        members[bone] = chain
+    for bend in bends:
+        names += bend.helpers
+        above |= dict.fromkeys(bend.helpers, above[bend.joint])
+        pivots = bend.pivots(built, coordinates)
+        places |= {helper: places[bend.joint] + pivot for helper, pivot in pivots.items()}
+    skeleton = _skeleton(names, above, places)
+    return BuiltJoints(
+        skeleton=skeleton,
+        drive=_drive(skeleton, built, members, twist, bends, coordinates),
+        weights=_weights(body, anatomy, skeleton, bones, own, twist, bends),
+        flesh={
+            bone: (*chain, *(h for bend in bends if bend.joint in chain for h in bend.helpers))
+            for bone, chain in members.items()
+        },
+    )
+
+
+def _nearest(body: Body, joint: str, own: set[str]) -> str | None:
+    """Return the next joint above that is kept."""
+    j = int(body.parents[body.joints.index(joint)])
+    while j >= 0 and body.joints[j] not in own:
+        j = int(body.parents[j])
+    return body.joints[j] if j >= 0 else None
+
+
+def _limb(anatomy: Anatomy, bone: str) -> tuple[Floats, Floats]:
+    """Where a limb starts, and the way to its end."""
+    base, side = bone.rsplit("_", 1)
+    start = anatomy.origin(bone)
+    return start, anatomy.origin(f"{FOLLOWING[base]}_{side}") - start
+
+
+def _skeleton(
+    names: Sequence[str], above: Mapping[str, str | None], places: Mapping[str, Floats]
+) -> Skeleton:
+    parents, offsets = [], []
+    for name in names:
+        parent = above[name]
+        parents.append(-1 if parent is None else names.index(parent))
+        offsets.append(places[name] - (0.0 if parent is None else places[parent]))
+    return Skeleton(tuple(names), np.array(parents), np.array(offsets))
+
+
+def _weights(
+    body: Body,
+    anatomy: Anatomy,
+    skeleton: Skeleton,
+    bones: Mapping[str, Sequence[str]],
+    own: set[str],
+    twist: Mapping[str, Shares],
+    bends: Sequence[Bend],
+) -> Floats:
+    column = {name: j for j, name in enumerate(skeleton.names)}
+    weights = np.zeros((len(body.vertices), len(column)))
+    for j, joint in enumerate(body.joints):
+        to = joint if joint in own else _nearest(body, joint, own)
+        if to is not None:
+            weights[:, column[to]] += body.weights[:, j]
     for side in SIDES:
-        _free_of_eyes(weights, [names.index(j) for j in bones[f"eye_{side}"]], parents)
-    for helper, (bending, *others) in helpers.items():
-        _hand_over(
-            weights,
-            names.index(helper),
-            names.index(bending),
-            [names.index(other) for other in others],
-        )
-    return BuiltJoints(skeleton, drive, weights)
+        for eye in bones[f"eye_{side}"]:
+            _free_of_eye(weights, column[eye], int(skeleton.parents[column[eye]]))
+    for bone in twist:
+        first, *others = (column[j] for j in bones[bone])
+        weights[:, first] += weights[:, others].sum(axis=1)
+        weights[:, others] = 0.0
+    for bend in bends:
+        steps = [*(column[h] for h in bend.helpers), column[bend.joint]]
+        share_bend(weights, [column[j] for j in bend.near], steps)
+    for bone, shares in twist.items():
+        start, along = _limb(anatomy, bone)
+        at = (body.vertices - start) @ along / (along @ along)
+        joints = [column[j] for j in shares]
+        limb = weights[:, joints[0]].copy()
+        weights[:, joints] = limb[:, None] * between(at, np.array(list(shares.values())))
+    return weights
 
 
-def _merge(body: Body, names: Sequence[str]) -> tuple[Floats, list[int]]:
-    """Weights (N, J) and parents of the kept joints."""
-
-    def nearest(j: int) -> int:
-        while body.joints[j] not in names:
-            j = int(body.parents[j])
-        return names.index(body.joints[j])
-
-    weights = np.zeros((len(body.vertices), len(names)))
-    for j in range(len(body.joints)):
-        weights[:, nearest(j)] += body.weights[:, j]
-    above = [int(body.parents[body.joints.index(name)]) for name in names]
-    return weights, [nearest(p) if p >= 0 else -1 for p in above]
-
-
-def _free_of_eyes(weights: Floats, eyes: Sequence[int], parents: Sequence[int]) -> None:
+def _free_of_eye(weights: Floats, eye: int, parent: int) -> None:
     """Give skin around an eye, which the body's makers let it drag along, to the head alone."""
-    for eye in eyes:
-        dragged = weights[:, eye] < 0.5
-        weights[dragged, parents[eye]] += weights[dragged, eye]
-        weights[dragged, eye] = 0.0
-
-
-def _hand_over(weights: Floats, helper: int, bending: int, others: Sequence[int]) -> None:
-    """Skin that is torn between a bending joint and its neighbours goes to the helper.
-
-    Where both hold half, the helper takes all; where one holds all, nothing: 2 · min.
-    """
-    near = weights[:, others].sum(axis=1)
-    taken = np.minimum(near, weights[:, bending])
-    share = taken / np.where(near > 0.0, near, 1.0)
-    weights[:, helper] = 2.0 * taken
-    weights[:, bending] -= taken
-    weights[:, others] -= weights[:, others] * share[:, None]
+    dragged = weights[:, eye] < 0.5
+    weights[dragged, parent] += weights[dragged, eye]
+    weights[dragged, eye] = 0.0
 
 
 def _drive(
     skeleton: Skeleton,
     built: BuiltChain,
-    bones: Mapping[str, Sequence[str]],
-    bone_of: Mapping[str, str],
-    twist: Mapping[str, Sequence[float]],
-    half_of: Sequence[int],
-    coordinate_names: Sequence[str],
+    members: Mapping[str, Sequence[str]],
+    twist: Mapping[str, Shares],
+    bends: Sequence[Bend],
+    coordinates: Coordinates,
 ) -> Drive:
     count = len(skeleton.names)
-    node = np.full(count, -1)
-    coordinate = np.full(count, -1)
-    left_out = np.zeros(count)
-    for j, name in enumerate(skeleton.names):
-        if name not in bone_of:
-            continue
-        bone = bone_of[name]
-        chain = list(bones[bone])
+    node, coordinate, helper_of = np.full(count, -1), np.full(count, -1), np.full(count, -1)
+    left_out, helper_share = np.zeros(count), np.zeros(count)
+    column = {name: j for j, name in enumerate(skeleton.names)}
+    for bone, chain in members.items():
         nodes = built.bones[bone]
-        spread = nodes.node - nodes.origin_node + 1
-        node[j] = nodes.origin_node + min(chain.index(name), spread - 1)
-        if bone in twist:
-            base, side = bone.rsplit("_", 1)
-            coordinate[j] = coordinate_names.index(f"{bone}.{TWIST_COORDINATE[base]}")
-            sign = 1.0 if side == "L" else -1.0
-            left_out[j] = sign * (1.0 - twist[bone][chain.index(name)])
-    bind = np.array([built.bind[c] for c in coordinate_names])
-    return Drive(node, coordinate, left_out, np.array(half_of), built.chain.frames(bind).rotations)
+        for i, joint in enumerate(chain):
+            node[column[joint]] = min(nodes.origin_node + i, nodes.node)
+    for bone, shares in twist.items():
+        base, side = bone.rsplit("_", 1)
+        sign = 1.0 if side == "L" else -1.0
+        for joint, share in shares.items():
+            coordinate[column[joint]] = coordinates.index[f"{bone}.{TWIST_COORDINATE[base]}"]
+            left_out[column[joint]] = sign * (1.0 - share)
+    for bend in bends:
+        for helper, share in bend.shares.items():
+            helper_of[column[helper]] = column[bend.joint]
+            helper_share[column[helper]] = share
+    bind = built.chain.frames(coordinates.bind).rotations
+    return Drive(node, coordinate, left_out, helper_of, helper_share, bind)

@@ -113,7 +113,8 @@ def write_rig(path: Path, rig: Rig) -> None:
                 "node": _plain(drive.node[j]),
                 "twist": _plain(drive.twist_coordinate[j]),
                 "left_out": _plain(drive.twist_left_out[j]),
-                "half_of": _plain(drive.half_of[j]),
+                "helper_of": _plain(drive.helper_of[j]),
+                "share": _plain(drive.helper_share[j]),
             }
             for j, name in enumerate(rig.skeleton.names)
         ],

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
-from azee_rig.rotation import about_axis, half_turn, to_matrices, to_quaternions
+from azee_rig.rotation import about_axis, part_turn, to_matrices, to_quaternions
 
 Floats = NDArray[np.float64]
 angles = st.floats(-3.1, 3.1)
@@ -32,11 +32,11 @@ def test_half_turns_have_a_quaternion_too(axis: int) -> None:
     np.testing.assert_allclose(to_matrices(to_quaternions(R)), R, atol=1e-12)
 
 
-@given(arrays(np.float64, 3, elements=angles))
-def test_half_a_rotation_twice_is_the_rotation(values: Floats) -> None:
+@given(arrays(np.float64, 3, elements=angles), st.integers(1, 5))
+def test_parts_of_a_rotation_make_up_the_whole(values: Floats, parts: int) -> None:
     R = _random(values)
-    half = to_matrices(half_turn(to_quaternions(R)))
-    np.testing.assert_allclose(half @ half, R, atol=1e-7)
+    part = to_matrices(part_turn(-to_quaternions(R), 1.0 / parts))
+    np.testing.assert_allclose(np.linalg.matrix_power(part, parts), R, atol=1e-7)
 
 
 def test_turns_are_right_handed() -> None:

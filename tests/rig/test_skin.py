@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 from azee_rig.mesh import vertex_normals
 from azee_rig.rig import Rig
@@ -61,39 +60,6 @@ def test_brows_ride_the_skin(signer: Rig) -> None:
     inner = np.abs(still[:, 0]) < 0.022
     assert (up - still)[inner, 1].mean() > 0.003
     assert (down - still)[:, 1].mean() < -0.003
-
-
-@pytest.mark.parametrize("degrees", [-80.0, 80.0])
-def test_the_wrist_is_not_wrung(signer: Rig, degrees: float) -> None:
-    """Its section keeps at least 85 % of its width."""
-    mesh, q = signer.mesh, np.array(signer.coordinates.bind)
-    wrist = signer.bones["palm_R"].origin_node
-    frames = signer.chain.frames(q)
-    R, p = frames.rotations[wrist], frames.positions[wrist]
-    local = (mesh.vertices - p) @ R
-    skin = next(x for x in mesh.parts if x.name == "skin")
-    used = np.unique(mesh.triangles[skin.start : skin.stop])
-    ring = used[(np.abs(local[used, 1]) < 0.006) & (np.linalg.norm(local[used], axis=1) < 0.05)]
-    assert len(ring) > 10
-    before = np.linalg.norm(local[ring], axis=1).mean()
-    q[signer.coordinates.index["f_arm_R.pronation"]] = np.radians(degrees)
-    frames = signer.chain.frames(q)
-    posed = signer.skin(signer.pose(q))[ring] - frames.positions[wrist]
-    along = frames.rotations[wrist][:, 1]
-    across = posed - np.outer(posed @ along, along)
-    flat = local[ring] * (1, 0, 1)
-    assert np.linalg.norm(across, axis=1).mean() > 0.85 * np.linalg.norm(flat, axis=1).mean()
-    assert before > 0
-
-
-def test_helpers_take_half_a_bend(signer: Rig) -> None:
-    q = np.array(signer.coordinates.bind)
-    q[signer.coordinates.index["palm_R.flexion"]] += np.radians(40)
-    names = signer.skeleton.names
-    rotations = signer.pose(q).rotations
-    whole, half = rotations[names.index("wrist.R")], rotations[names.index("carpus.R")]
-    assert np.degrees(2 * np.arccos(whole[0])) == pytest.approx(40, abs=1e-6)
-    assert np.degrees(2 * np.arccos(half[0])) == pytest.approx(20, abs=1e-6)
 
 
 def test_lids_follow_the_eyes(signer: Rig) -> None:

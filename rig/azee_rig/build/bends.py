@@ -53,7 +53,7 @@ class Bend:
         """
         if not any(self.helpers.values()):
             return {helper: np.zeros(3) for helper in self.helpers}
-        chain, (node, _) = built.chain, self._nodes(built)
+        chain, node = built.chain, built.bones[self.bone].node
         flexion = coordinates.index[f"{self.bone}.flexion"]
 
         def turned(angle: float) -> Floats:
@@ -71,10 +71,6 @@ class Bend:
             moved = np.eye(3) - to_matrices(part_turn(bent, share))
             out[helper] = self.helpers[helper] * np.linalg.pinv(moved, rcond=1e-6) @ outward
         return out
-
-    def _nodes(self, built: BuiltChain) -> tuple[int, int]:
-        nodes = built.bones[self.bone]
-        return nodes.origin_node, nodes.node
 
 
 def share_bend(weights: Floats, near: Sequence[int], steps: Sequence[int]) -> None:

@@ -46,9 +46,11 @@ Floats = NDArray[np.float64]
 Turn = tuple[int, float, str]
 """Axis, signed share, coordinate."""
 
-RHYTHM = {"abduction": 0.16, "flexion": 0.10}
-"""Share of the arm's elevation that the clavicle takes. Of 180° of elevation the
-sternoclavicular joint takes about 30° (range-of-motion tables), less while flexing."""
+RHYTHM = {"abduction": 0.16, "flexion": 0.15}
+"""Share of the arm's elevation that the clavicle takes. The shoulder blade takes 0.43° for each
+degree of the shoulder joint, 30 % of the whole (Braman et al. 2009, J Shoulder Elbow Surg 18:960),
+rather less in flexion than in abduction (Borsa et al. 2003, J Athl Train 38:12); about half of that
+is the clavicle's, 30° of 180° (range-of-motion tables)."""
 
 STRAIGHT_DEG, BACKWARD_DEG = 3.0, 15.0
 """An elbow bent by less, or by less and to the wrong side, is taken for straight."""

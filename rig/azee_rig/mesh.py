@@ -88,14 +88,11 @@ class BodyMesh:
 
 def vertex_normals(vertices: Floats, triangles: Ints) -> Floats:
     """Return unit normals (N, 3), each the mean of its triangles' normals by area."""
-    a, b, c = (vertices[triangles[:, i]] for i in range(3))
-    face = np.cross(b - a, c - a)
-    corners = triangles.T.ravel()
-    sums = np.stack(
-        [np.bincount(corners, np.tile(face[:, k], 3), len(vertices)) for k in range(3)], axis=1
-    )
-    length = np.linalg.norm(sums, axis=1, keepdims=True)
-    return np.asarray(sums / np.where(length > 0.0, length, 1.0))
+    from azee_rig.skin_kernel import smooth_normals
+
+    vertices = np.ascontiguousarray(vertices, dtype=np.float64)
+    triangles = np.ascontiguousarray(triangles, dtype=np.int64)
+    return np.asarray(smooth_normals(vertices, triangles))
 
 
 def read_mesh(path: Path) -> BodyMesh:

@@ -37,9 +37,10 @@ def skin(
 
     Args: unit_weights: (U,) weights of the face units, in the mesh's order.
     """
+    from azee_rig.skin_kernel import blended
+
     positions, rotations = joint_frames(skeleton, pose)
     shift = positions - (rotations @ skeleton.rest_positions[:, :, None])[..., 0]
     transforms = np.concatenate([rotations, shift[:, :, None]], axis=2)
-    blend = (mesh.dense_weights @ transforms.reshape(len(transforms), 12)).reshape(-1, 3, 4)
     shaped = mesh.vertices if unit_weights is None else mesh.shaped(unit_weights)
-    return np.asarray((blend[:, :, :3] @ shaped[:, :, None])[..., 0] + blend[:, :, 3])
+    return np.asarray(blended(shaped, mesh.joints, mesh.weights, transforms))

@@ -25,6 +25,7 @@ DECLARATIONS = {"azee_solver.geometry", "azee_solver.constraint"}
 MAY_IMPORT: dict[str, set[str]] = {
     "azee_grammar": {"lark"},
     "azee_rig": {"numpy"},
+    "azee_rig.skin_kernel": {"numpy", "numba"},
     "azee_rig.build": {"azee_rig", "numpy", "trimesh"},
     "azee_solver.geometry": set(),
     "azee_solver.constraint": {"azee_solver.geometry"},

@@ -85,9 +85,9 @@ def main(wheel: Path, folder: Path) -> None:
     )
     units = tuple(body.shapes)
     mesh = assemble(dress(body, whole_body(body, made.weights, units), anatomy, regions), units)
-    surface = Surface(mesh, made.skeleton, made.belongs)
+    surface = Surface(mesh, made.skeleton)
     frames = built.chain.frames(coordinates.bind)
-    flesh = {"root": ("root",), **made.members}
+    flesh = {"root": ("root",), **made.flesh}
     placer = SitePlacer(surface, anatomy, frames, built.chain.names, built.bones, flesh)
     sites = [placer.place(rule) for rule in read_rules(DATA / "site_rules.csv")]
     expressed, not_expressed = read_face_morphs(DATA / "face_morphs.json", units)

@@ -36,7 +36,7 @@ def blended(vertices: Any, joints: Any, weights: Any, transforms: Any) -> Any:
 
 @njit(types.float64[:, ::1](_floats, _indices), cache=True)
 def smooth_normals(vertices: Any, triangles: Any) -> Any:
-    """Unit normals (N, 3), each the mean of its triangles' by area; 0 where a vertex has none.
+    """Return unit normals (N, 3), each the mean of its triangles' by area; 0 where there is none.
 
     Args: triangles: (F, 3).
     """

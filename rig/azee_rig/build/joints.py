@@ -35,16 +35,13 @@ FOLLOWING = {"arm": "f_arm", "f_arm": "palm"}
 class BuiltJoints:
     """A skeleton, how it follows the chain, and the body's weights on its joints (N, J).
 
-    members: all joints that turn with an AZee bone, but for helpers. belongs: (J, J) how much of
-    the skin on a joint is flesh of each: helpers own none, what lies on them is partly before the
-    bend and partly behind it.
+    flesh: all joints whose skin is that of an AZee bone; a helper's is that of the bone that bends.
     """
 
     skeleton: Skeleton
     drive: Drive
     weights: Floats
-    members: Mapping[str, tuple[str, ...]]
-    belongs: Floats
+    flesh: Mapping[str, tuple[str, ...]]
 
 
 def build_joints(
@@ -87,8 +84,10 @@ def build_joints(
         skeleton=skeleton,
         drive=_drive(skeleton, built, members, twist, bends, coordinates),
         weights=_weights(body, anatomy, skeleton, bones, own, twist, bends),
-        members=members,
-        belongs=_belonging(skeleton, bends),
+        flesh={
+            bone: (*chain, *(h for bend in bends if bend.joint in chain for h in bend.helpers))
+            for bone, chain in members.items()
+        },
     )
 
 
@@ -116,17 +115,6 @@ def _skeleton(
         parents.append(-1 if parent is None else names.index(parent))
         offsets.append(places[name] - (0.0 if parent is None else places[parent]))
     return Skeleton(tuple(names), np.array(parents), np.array(offsets))
-
-
-def _belonging(skeleton: Skeleton, bends: Sequence[Bend]) -> Floats:
-    belongs = np.eye(len(skeleton.names))
-    column = {name: j for j, name in enumerate(skeleton.names)}
-    for bend in bends:
-        for helper, share in bend.shares.items():
-            belongs[column[helper]] = 0.0
-            belongs[column[helper], column[bend.joint]] = share
-            belongs[column[helper], column[bend.near[0]]] = 1.0 - share
-    return belongs
 
 
 def _weights(

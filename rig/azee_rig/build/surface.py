@@ -19,14 +19,10 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """A dressed mesh in its own posture, with the joints that its weights speak of.
-
-    belongs: (J, J) how much of the skin on a joint is flesh of each, for helper joints own none.
-    """
+    """A dressed mesh in its own posture, with the joints that its weights speak of."""
 
     mesh: BodyMesh
     skeleton: Skeleton
-    belongs: Floats
 
     @cached_property
     def tree(self) -> trimesh.Trimesh:
@@ -48,7 +44,7 @@ class Surface:
     def share(self, joints: Sequence[str]) -> Floats:
         """Weight of some joints together on each vertex, (N,)."""
         columns = [self.skeleton.names.index(j) for j in joints]
-        return np.asarray(self.mesh.dense_weights @ self.belongs[:, columns].sum(axis=1))
+        return np.asarray(self.mesh.dense_weights[:, columns].sum(axis=1))
 
     def cast(self, start: Floats, toward: Floats, allowed: Mask, hit: str) -> tuple[Floats, Floats]:
         """Return where a ray first or last meets allowed triangles, and the normal there.

@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 TRUNK_HEIGHTS = (0.0, 0.17, 0.34, 0.51, 0.67, 0.84)
 """Of the way from the lowest back joint to the neck."""
 BAND_M = 0.03
-LIMB_SHARE = 85.0
+LIMB_SHARE = 75.0
 """Percentile of the skin's distance from the bone that a limb's capsule holds."""
 HEAD = {
     "skull": ((0.0, 0.20, -1.49), (0.0, 0.41, -1.00), 1.41),
@@ -120,7 +120,7 @@ def _fit_arm(fit: _Fitter, side: str) -> None:
     arm, f_arm, palm = (f"{b}_{side}" for b in ("arm", "f_arm", "palm"))
     _fit_limb(fit, f"shoulder_{side}", fit.bones[arm].node, arm, f_arm, (arm,), 0.0, 0.45)
     _fit_limb(fit, f"upper_arm_{side}", fit.bones[arm].node, arm, f_arm, (arm,), 0.45, 1.0)
-    _fit_limb(fit, f"elbow_{side}", fit.bones[arm].node, arm, f_arm, (arm,), 0.62, 1.0)
+    _fit_limb(fit, f"elbow_{side}", fit.bones[arm].node, arm, f_arm, (arm,), 0.66, 1.0)
     shoulder, neck = fit.anatomy.origin(arm), fit.anatomy.origin("neck")
     root = neck + 0.35 * (shoulder - neck)
     collar = fit.bones[f"clav_{side}"].node

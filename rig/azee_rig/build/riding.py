@@ -179,7 +179,7 @@ class _Fit:
         drive, turned = self.rig.drive, self.beside
         carrying = []
         for j in np.flatnonzero(self.weights[i] > CARRIES):
-            driven = drive.half_of[j] if drive.half_of[j] >= 0 else j
+            driven = drive.helper_of[j] if drive.helper_of[j] >= 0 else j
             if drive.node[driven] >= 0:
                 carrying.append(int(drive.node[driven]))
         known = set[int]().union(*(self._owned(node) for node in (own, *carrying)))

@@ -32,6 +32,7 @@ from benchmarks.ik.comparison import Row, compared
 from benchmarks.ik.elsewhere import BLENDER, PINOCCHIO, Environment, NotThere
 from benchmarks.ik.goals import Goal, goals_of
 from benchmarks.ik.methods import METHODS, Answer
+from benchmarks.ik.page import put_on_page
 from benchmarks.ik.problems import Maker, Problem
 from benchmarks.ik.scaling import by_joints, by_moments, by_problems
 from benchmarks.ik.signs import EXAMPLES, example_tree, examples, signs
@@ -78,6 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run all of it, print tables as they come, and write the JSON."""
     parser = argparse.ArgumentParser(prog="run.py solver", description=__doc__)
     parser.add_argument("--json", type=Path, metavar="OUT", help="write all figures there")
+    parser.add_argument("--page", type=Path, metavar="OUT.md", help="put the results on this page")
     parser.add_argument("--count", type=int, default=200, help="problems per class")
     parser.add_argument("--body", choices=("armature", "signer"), help="compare on this one alone")
     parser.add_argument("--only", choices=("comparison", "signs", "scaling", "process"))
@@ -108,9 +110,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     console.print(tables.goals(found.goals))
     for line in found.skipped:
         console.print(f"skipped: {line}")
+    document = found.as_json(given.count)
     if given.json:
-        text = json.dumps(found.as_json(given.count), indent=1)
-        given.json.write_text(f"{text}\n", encoding="utf-8")
+        given.json.write_text(f"{json.dumps(document, indent=1)}\n", encoding="utf-8")
+    if given.page:
+        put_on_page(document, given.page)
 
 
 def _prepared(found: Findings, prepare: bool) -> Sequence[Environment]:

@@ -2,7 +2,7 @@
 
 `python pinocchio_dls.py problems.json answers.json`: see `elsewhere` for the exchange. It is how
 users of a robotics library plainly write inverse kinematics: stacked task errors, pinocchio's
-Jacobians, a damped Gauss-Newton step of limited length, clipped to the limits; ten starts.
+Jacobians, a damped Gauss-Newton step of limited length, clipped to the limits; four starts.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import pinocchio as pin  # type: ignore[import-not-found]
 
-MAX_STEPS, STARTS = 200, 10
+MAX_STEPS, STARTS = 200, 4
 DAMPING = 1e-4
 LONGEST_RAD = 0.5
 TOLERANCE = {"point": 0.5e-3, "along": math.radians(0.25), "across": math.radians(0.25)}

@@ -13,6 +13,7 @@ from azee.motion.curves import LimbKey, LimbTrack, track
 from azee.motion.limbs import Limbs
 from azee.motion.posture import KeyPosture
 from azee.motion.spans import Spans
+from azee.motion.swerve import Swerve
 from azee.score.interval import Interval
 from azee_rig.coordinates import Coordinates
 
@@ -21,17 +22,20 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Movement:
-    """Tracks of all limbs, by name, on the score's time line."""
+    """Tracks of all limbs, by name, on the score's time line, and detours laid on them."""
 
     coordinates: Coordinates
     limbs: Limbs
     tracks: Mapping[str, LimbTrack]
+    swerves: tuple[Swerve, ...] = ()
 
     def sample(self, times_s: Array) -> Array:
         """Return coordinates at increasing times, (T, V) radians, inside the limits."""
         out = np.empty((len(times_s), len(self.coordinates)))
         for limb, members in self.limbs.members.items():
             out[:, members] = self.tracks[limb].sample(times_s)
+        for swerve in self.swerves:
+            swerve.add_to(out, times_s)
         return np.clip(out, self.coordinates.lower, self.coordinates.upper, out=out)
 
     @property

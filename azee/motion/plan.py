@@ -10,10 +10,12 @@ from fractions import Fraction
 import numpy as np
 
 from azee.motion.bound import Bound, BoundScore
-from azee.motion.gauge import Gauge, Instants
+from azee.motion.clearance import Clearing
+from azee.motion.gauge import Gauge, Instants, instants
 from azee.motion.keyframes import active, solve_boundaries
 from azee.motion.keying import Keying
 from azee.motion.movement import Movement
+from azee.motion.overlap import Overlaps
 from azee.motion.poser import Poser
 from azee.motion.posture import KeyPosture, Origin, PostureSolver
 from azee.motion.refine import CLOSEST_S, Refinement, merged
@@ -55,11 +57,11 @@ def plan(
 ) -> Plan:
     """Solve all key postures of a score, so that its constraints hold at the given frames."""
     known = travels(score, evaluator.binding.dominant)
-    at = by_time(known)
+    ways = by_time(known)
     later = deferred(known, (k.time for k in score.timeline.keyframes))
     coordinates = evaluator.rig.coordinates
     rest = Rest(score.postures, keying.limbs, coordinates.idle)
-    poser = Poser(coordinates, keying, solver, at, rest)
+    poser = Poser(coordinates, keying, solver, ways, rest)
     first = solve_boundaries(score, poser, evaluator.binding, later)
     needed = [
         *((b.requirement.interval, b.limbs | b.read_limbs) for b in score.postures),
@@ -71,11 +73,16 @@ def plan(
         c.demand.constraint for p in first.postures for c in p.report.constraints if not c.met
     )
     refinement = Refinement(gauge, keying, solver, holders, hopeless)
-    work = _Work(refinement, known, at, list(first.postures), frame_times)
+    work = _Work(refinement, known, ways, list(first.postures), frame_times)
     work.steer(later)
     work.follow([b for b in score.postures if b.dynamic])
     done = work.refinement.refined(work.postures, frame_times)
-    return Plan(done.postures, done.movement, work.refinement.gauge, done.instants)
+    if keying.flat:
+        return Plan(done.postures, done.movement, work.refinement.gauge, done.instants)
+    clearing = Clearing(evaluator, score, holders, Overlaps(evaluator))
+    clear = clearing.cleared(done.movement)
+    at = instants(clear, done.instants.times, evaluator)
+    return Plan(done.postures, clear, work.refinement.gauge, at)
 
 
 @dataclass(slots=True, eq=False)

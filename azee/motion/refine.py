@@ -16,27 +16,22 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.bound import Bound
+from azee.motion.amend import Amending
 from azee.motion.gauge import Gauge, Instants, instants
 from azee.motion.keyframes import active
 from azee.motion.keying import Keying, fresh
-from azee.motion.limbs import LINKS, TRUNK, Limbs
+from azee.motion.limbs import Limbs
 from azee.motion.movement import Movement, movement
 from azee.motion.poser import demands_of
-from azee.motion.posture import KeyPosture, Origin, PostureSolver, Search
+from azee.motion.posture import KeyPosture, Origin, PostureSolver
 from azee.motion.spans import Spans
-from azee.motion.standing import free_limbs
 from azee_solver.constraint import Constraint
-from azee_solver.demand import Demand
-from azee_solver.report import SolveReport
 
 Array = NDArray[np.float64]
 
 ROUNDS = 12
 MARGIN = 0.9
 """Share of the tolerance that an interpolated posture may use up before a key is added."""
-SETTLED = 0.5
-"""Share of the tolerance within which a constraint needs nothing where a key is added."""
 NO_WORSE = 1.1
 """Between keys that miss a constraint, it may be missed by this much more."""
 TRIALS = 4
@@ -94,6 +89,7 @@ class Refinement:
             return []
         at = instants(movement, times, self.gauge.evaluator)
         every = frozenset(self.limbs.names)
+        amending = Amending(self.gauge, self.limbs, self.solver, self.hopeless)
         out = []
         for i, (time, q) in enumerate(zip(times, at.q, strict=True)):
             one = at.only(slice(i, i + 1))
@@ -104,11 +100,7 @@ class Refinement:
             asking = [*bounds, *(c.travel.bound for c in steering)]
             demands = demands_of(bounds, time, paths)
             begun = fresh(bounds, time) if origin is Origin.BOUNDARY else []
-            report = (
-                self._beside_the_rest(one, asking, begun, demands)
-                or self._beside_the_trunk(one, bounds, demands)
-                or self._whole(demands, q)
-            )
+            report = amending.solve(one, asking, begun, demands)
             lost = {c.demand.constraint for c in report.constraints if not c.met}
             missed = [b for b in asking if b.constraint in lost]
             keyed = self.keying.on_the_way([*begun, *missed], report.coordinates - q)
@@ -120,64 +112,6 @@ class Refinement:
                 )
             )  # fmt: skip
         return out
-
-    def _beside_the_rest(
-        self,
-        one: Instants,
-        asking: Sequence[Bound],
-        begun: Sequence[Bound],
-        demands: Sequence[Demand],
-    ) -> SolveReport | None:
-        """Move only what serves constraints that are missed; none if that does not do.
-
-        What the other tracks have right stays exactly where they have it. So do trunk and head,
-        which others move along with, unless what is missed speaks of them: eyes keep their aim
-        while a head shakes, and an arm reaches its path from the trunk as it finds it.
-        """
-        kept: list[Bound] = []
-        new = [*begun]
-        for b in asking:
-            residual = float(self.gauge.residual(b, one)[0])
-            missed = not residual <= self.gauge.tolerance(b) * SETTLED
-            (new if missed and b not in begun else kept).append(b)
-        free = free_limbs(kept, new, stays=frozenset(LINKS) - {b.limb for b in new})
-        if not new or free >= frozenset(self.limbs.names):
-            return None
-        members = (self.limbs.members[limb] for limb in self.limbs.names if limb not in free)
-        fixed = frozenset(int(v) for indices in members for v in indices)
-        report = self.solver(
-            demands, start=one.q[0], reference=one.q[0], search=Search.NEAR, fixed=fixed
-        )
-        return report if report.met else None
-
-    def _beside_the_trunk(
-        self, one: Instants, bounds: Sequence[Bound], demands: Sequence[Demand]
-    ) -> SolveReport | None:
-        """Leave the trunk to its own curve and solve the rest; none if that does not do.
-
-        The trunk links both arms: moved for one it would disturb the other's way.
-        """
-        own = frozenset(self.limbs.members.get(TRUNK, np.empty(0, dtype=np.int64)).tolist())
-        aside = [b for b in bounds if b.moves and b.moves <= own]
-        for b in aside:
-            if not float(self.gauge.residual(b, one)[0]) <= self.gauge.tolerance(b):
-                return None
-        left = {b.constraint for b in aside}
-        asked = [d for d in demands if d.constraint not in left]
-        report = self.solver(
-            asked, start=one.q[0], reference=one.q[0], search=Search.NEAR, fixed=own
-        )
-        return report if report.met else None
-
-    def _whole(self, demands: Sequence[Demand], q: Array) -> SolveReport:
-        """Solve with all of the body, near if that will do, else looking farther."""
-        near = self.solver(demands, start=q, reference=q, search=Search.NEAR)
-        lost = {c.demand.constraint for c in near.constraints if not c.met}
-        if lost <= self.hopeless:
-            return near
-        wide = self.solver(demands, start=q, reference=q)
-        missed = [sum(not c.met for c in r.constraints) for r in (near, wide)]
-        return wide if missed[1] < missed[0] else near
 
     def refined(self, postures: Iterable[KeyPosture], frame_times: Sequence[Fraction]) -> Refined:
         """Return key postures with those added that the frames need."""

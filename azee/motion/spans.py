@@ -46,11 +46,15 @@ class Spans(Generic[T]):
 
     def meeting(self, interval: Interval) -> list[T]:
         """Return what shares an instant with an interval, in the order given."""
+        return [item for _, item in self.entries_meeting(interval)]
+
+    def entries_meeting(self, interval: Interval) -> list[tuple[Interval, T]]:
+        """Return what shares an instant with an interval, each with its own interval."""
         start = bisect_left(self.instants, interval.start)
         end = bisect_right(self.instants, interval.end) - 1
         near = {k for stretch in self._stretches[max(0, start - 1) : end + 1] for k in stretch}
         return [
-            self._entries[k][1]
+            self._entries[k]
             for k in sorted(near)
             if self._ends[k][0] <= end and start <= self._ends[k][1]
         ]

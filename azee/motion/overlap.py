@@ -1,0 +1,93 @@
+"""How deep capsules of the body overlap along a movement: what clearing the way works on.
+
+Capsules hold the skin and can be asked for thousands of postures a second; the skin itself is the
+judge in the report.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.chain import Frames
+from azee_solver.anatomy import Part, anatomy
+from azee_solver.collisions import Obstacles, segment_distance
+from azee_solver.constraint import Constraint, Place
+from azee_solver.evaluate import Evaluator
+
+Array = NDArray[np.float64]
+
+CLEAR_M, FINGERS_CLEAR_M = 0.007, 0.0005
+"""Fingers of one hand lie side by side; everything else keeps a little away."""
+FAR_M = -1.0
+"""Stands for pairs that are nowhere near each other."""
+
+
+class Overlaps:
+    """Overlaps of the pairs of capsules of one body that must stay apart.
+
+    pairs: (P, 2). nodes: (P, 2) the nodes that carry them. clear_m: (P,) how far apart a way that
+    is free to choose keeps them: capsules do not hold all of the skin.
+    """
+
+    def __init__(self, evaluator: Evaluator) -> None:
+        self._evaluator, self._rig = evaluator, evaluator.rig
+        self._anatomy = anatomy(self._rig.chain, self._rig.coordinates)
+        capsules = self._rig.capsules
+        self.pairs: NDArray[np.int64] = Obstacles(evaluator.binding, self._anatomy, ()).pairs
+        self.nodes = capsules.node[self.pairs]
+        length = np.linalg.norm(capsules.b - capsules.a, axis=1)
+        self._span = (length / 2)[self.pairs].sum(axis=1)
+        hands = [*self._anatomy.of(Part.HAND)]
+        others = np.ones(len(self._rig.coordinates), dtype=np.bool_)
+        others[hands] = False
+        arms = (self._anatomy.relative(*self.nodes.T) & others).any(axis=1)
+        self.clear_m: Array = np.where(arms, CLEAR_M, FINGERS_CLEAR_M)
+        self._reach = lru_cache(maxsize=64)(self._reach_of)
+
+    def moved_by(self, pair: int) -> list[int]:
+        """Coordinates that change the distance of a pair."""
+        relative = self._anatomy.relative(*self.nodes[[pair]].T)[0]
+        return [int(v) for v in np.flatnonzero(relative)]
+
+    def names(self, pair: int) -> tuple[str, str]:
+        """Names of a pair's capsules."""
+        i, j = self.pairs[pair]
+        return self._rig.capsules.names[i], self._rig.capsules.names[j]
+
+    def reach(self, constraints: Iterable[Constraint]) -> Array:
+        """How near the axes of pairs may come, (P,), where constraints mean some to touch."""
+        return self._reach(tuple(dict.fromkeys(c for c in constraints if isinstance(c, Place))))
+
+    def _reach_of(self, places: tuple[Constraint, ...]) -> Array:
+        return Obstacles(self._evaluator.binding, self._anatomy, places).reach
+
+    def depth(
+        self, q: Array, reach: Array, near_m: float, pairs: NDArray[np.int64] | None = None
+    ) -> Array:
+        """Return how deep pairs overlap in postures, (T, P) metres; negative if they are apart.
+
+        Args: q: (T, V). reach: (P,), as `reach` gives it. near_m: pairs farther apart are `FAR_M`.
+            pairs: indices of those to look at, all by default.
+        """
+        chosen = np.arange(len(self.pairs)) if pairs is None else pairs
+        a, b = self._ends(self._rig.chain.frames(q))
+        i, j = self.pairs[chosen].T
+        middle = (a + b) / 2
+        out = np.full((len(q), len(chosen)), FAR_M)
+        gap = np.linalg.norm(middle[:, i] - middle[:, j], axis=2) - self._span[chosen]
+        t, p = np.nonzero(gap < reach[chosen] + near_m)
+        distance = segment_distance(a[t, i[p]], b[t, i[p]], a[t, j[p]], b[t, j[p]])
+        out[t, p] = reach[chosen][p] - distance
+        return out
+
+    def _ends(self, frames: Frames) -> tuple[Array, Array]:
+        """World ends of all capsules' axes in postures, (T, K, 3) each."""
+        capsules = self._rig.capsules
+        o, R = frames.positions[:, capsules.node], frames.rotations[:, capsules.node]
+        a = o + (R @ capsules.a[..., None])[..., 0]
+        b = o + (R @ capsules.b[..., None])[..., 0]
+        return a, b

@@ -10,7 +10,7 @@ READY := $(ENV)/.ready
 PACKAGES := tests/node/node_modules/.package-lock.json
 TYPED := tests benchmarks examples
 
-.PHONY: help demo test check format bench bench-solver bench-blender fuzz examples pictures wheel-test node
+.PHONY: help demo test check format bench bench-solver bench-blender fuzz examples films pictures wheel-test node
 
 help: ## what there is
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
@@ -51,6 +51,9 @@ fuzz: $(READY) ## look for texts that break the language, for SECONDS=60; on Lin
 
 examples: $(READY) ## every example as GLB, BVH, JSON, SVG and PNG, into out/examples
 	@$(RUN) examples/build.py --out out/examples
+
+films: $(READY) ## a film of every example, and a sheet of its key postures, into out/films
+	@$(RUN) examples/films.py --out out/films
 
 pictures: $(READY) ## draw the pictures of the examples' folders and of the tutorial anew
 	@$(RUN) examples/build.py --out out/examples --keep-pictures

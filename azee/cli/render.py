@@ -115,8 +115,8 @@ def render(
     films = [path for path in outputs if path.suffix.lower() in FILM_SUFFIXES]
     if transparent and any(path.suffix.lower() == ".mp4" for path in films):
         raise click.UsageError("MP4 has no transparency; write a .webm")
-    if (moments or sheet) and films:
-        raise click.UsageError("--at and --sheet are of pictures; a film shows all")
+    if (moments or sheet) and len(films) == len(outputs):
+        raise click.UsageError("--at and --sheet are of pictures: name a .png")
     if moments and sheet:
         raise click.UsageError("--at and --sheet exclude each other")
     try:

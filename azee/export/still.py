@@ -47,11 +47,14 @@ def write_sheet(
 ) -> None:
     """Draw the key postures, and what is half-way between them, as rows of upright pictures.
 
+    What the clip begins and ends with counts as a key posture.
+
     Args: look: of which the cameras, and twice the height of a picture, are taken. key_times: of
         the key postures; without any, of the moments at which the body moves least.
     Raises: KeyError: no such camera. OSError.
     """
     keys = resting_times(clip) if key_times is None else key_times
+    keys = [float(clip.times[0]), *keys, float(clip.times[-1])]
     chosen = [float(clip.times[i]) for i in telling_frames(clip, keys, MOST)]
     between = [(a + b) / 2 for a, b in pairwise(chosen)]
     times = sorted({*chosen, *between})
@@ -66,7 +69,7 @@ def write_sheet(
     pictures = [
         (caption[: size[0] // 8], image) for caption, image in zip(captions, images, strict=True)
     ]
-    _write(contact_sheet(pictures, max(1, WIDEST // size[0])), path)
+    _write(contact_sheet(pictures, min(len(pictures), max(1, WIDEST // size[0]))), path)
 
 
 def running(clip: Clip, time_s: float) -> str:

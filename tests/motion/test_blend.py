@@ -48,8 +48,8 @@ def printed(
             fade_out = (E[n] + a - t) / a * S[n - 1](t - E[n - 1])
             return np.asarray(fade_out + (t - E[n]) / a * S[n](t - E[n]))
         if E[n] + a <= t < E[n + 1]:
-            return S[n](t - E[n])
-    return S[m - 1](t - E[m - 1])
+            return np.asarray(S[n](t - E[n]))
+    return np.asarray(S[m - 1](t - E[m - 1]))
 
 
 def test_linear_is_the_printed_formula() -> None:

@@ -58,6 +58,7 @@ films: $(READY) ## a film of every example, and a sheet of its key postures, int
 pictures: $(READY) ## draw the pictures of the examples' folders and of the tutorial anew
 	@$(RUN) examples/build.py --out out/examples --keep-pictures
 	@$(RUN) docs/language/pictures.py
+	@$(RUN) docs/film_pictures.py
 
 wheel-test: $(READY) node ## the fast tests against the built wheel, outside the checkout
 	@bash tests/project/wheel.sh $(RUN)

@@ -75,13 +75,20 @@ class Binding:
         return {index[name]: morph.weight * angle for name, angle in angles.items()}
 
     def presets(self, constraints: Iterable[Constraint]) -> dict[int, float]:
-        """Angles that all skeletal morphs in force at one moment ask for together: they add."""
+        """Angles that all skeletal morphs in force at one moment ask for together.
+
+        They add, and thumbs that they would put into their hand give way; see `handshape`.
+        """
         total: dict[int, float] = {}
         for constraint in constraints:
             if isinstance(constraint, Morph) and self.is_skeletal(constraint):
                 for v, angle in self.preset(constraint).items():
                     total[v] = total.get(v, 0.0) + angle
-        return total
+        if not total:
+            return total
+        from azee_solver.handshape import fitted
+
+        return fitted(self.rig, total)
 
     def check(self, constraint: Constraint) -> None:
         """Raise BindingError, with the constraint's origin, for the first name the rig lacks."""

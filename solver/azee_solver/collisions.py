@@ -169,7 +169,8 @@ def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> tuple[Array
 def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, Array, NDArray[np.bool_]]:
     """Pairs (P, 2), sums of radii and margins (P,), coordinates that change distances (P, V).
 
-    Fingers of one hand lie side by side when they are straight: no pair asks for more than that.
+    Fingers of one hand lie side by side when they are straight, and a thumb is clear of its hand
+    in the mesh's own posture: no pair asks for more than that.
     """
     capsules = rig.capsules
     pairs = np.vstack([capsules.pairs, capsules.finger_pairs])
@@ -178,8 +179,14 @@ def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, Array,
     others = np.ones(len(rig.coordinates), dtype=np.bool_)
     others[list(anatomy.of(Part.HAND))] = False
     same_hand = ~(relative & others).any(axis=1)
-    straight = rig.chain.frames(np.zeros(len(rig.coordinates)))
-    radii[same_hand] = np.minimum(radii, _distances(rig, pairs, straight))[same_hand]
+    thumbs = [rig.bones[f"thumb_{side}_1"].node for side in "LR"]
+    thumb = anatomy.paths[capsules.node[pairs]][:, :, thumbs].any(axis=(1, 2))
+    for alike, posture in (
+        (same_hand & ~thumb, np.zeros(len(rig.coordinates))),
+        (same_hand & thumb, rig.coordinates.bind),
+    ):
+        clear = _distances(rig, pairs, rig.chain.frames(posture))
+        radii[alike] = np.minimum(radii, clear)[alike]
     arm = np.logical_or(*(anatomy.paths[:, rig.bones[f"arm_{side}"].node] for side in "LR"))
     i, j = capsules.node[pairs].T
     margin = np.where(arm[i] ^ arm[j], MARGIN_M, 0.0)

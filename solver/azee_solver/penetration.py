@@ -1,11 +1,13 @@
-"""How deep a posed body's arms and hands lie inside its trunk, its head or each other.
+"""How deep a posed body's arms, hands and fingers lie inside its trunk, its head or each other.
 
 Measured on the skin itself, not on the capsules that the solver keeps apart: the judge of them.
+Arms end at the knuckles; every digit counts by itself. Against its own hand only the phalanges
+beyond the first are tested, for the first are webbed to it and to each other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -27,6 +29,9 @@ LOOSE_PARTS = frozenset({"hair", "brows", "lashes", "eyes", "teeth", "tongue", "
 """Parts of a mesh that do not bound the body."""
 ARMPIT = 0.6
 """So much of the upper arm, from the shoulder, always lies against the trunk and is not counted."""
+DIGITS = ("thumb", "index", "middle", "ring", "little")
+CONTACT_M = 0.02
+"""About a meant contact flesh gives way, which skin that follows bones alone does not show."""
 OWN_WEIGHT = 0.9
 """A vertex belongs to a limb if so much of its skin weight does."""
 
@@ -41,44 +46,59 @@ class Penetration:
     point: tuple[float, float, float]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Limb:
+    """Vertices that are tested, (n,), and those of them that are against the own hand, (m,)."""
+
+    side: str
+    all: NDArray[np.int64]
+    beyond_web: NDArray[np.int64]
+
+
 @dataclass(frozen=True, eq=False)
 class _Regions:
-    """Vertices of the limbs that are tested, (N,), and triangles that bound the parts, (F, 3)."""
+    """Limbs that are tested, and triangles that bound the parts, (F, 3)."""
 
-    limbs: Mapping[str, Flags]
+    limbs: Mapping[str, _Limb]
     surfaces: Mapping[str, NDArray[np.int64]]
 
 
-def mesh_penetration(rig: Rig, q: Array) -> tuple[Penetration, ...]:
-    """Return where arms and hands enter trunk, head or the other arm, deepest first.
+def mesh_penetration(rig: Rig, q: Array, contacts: Sequence[Array] = ()) -> tuple[Penetration, ...]:
+    """Return where arms and digits enter trunk, head, the other arm or each other, deepest first.
 
-    Args: q: (V,) coordinates of one posture.
+    Args: q: (V,) coordinates of one posture. contacts: places (3,) in the world where touching is
+        meant; what lies within `CONTACT_M` of one is not counted.
     """
     regions = _regions(rig)
     vertices = rig.skin(rig.pose(q))
+    corners = {name: vertices[triangles] for name, triangles in regions.surfaces.items()}
+    boxes = {name: (c.min(axis=(0, 1)), c.max(axis=(0, 1))) for name, c in corners.items()}
     found = []
-    for limb, own in regions.limbs.items():
-        for body, triangles in regions.surfaces.items():
-            if body == limb:
+    for name, limb in regions.limbs.items():
+        for body, surface in corners.items():
+            if body == name or (name.startswith("arm_") and body.endswith(f"_{limb.side}")):
                 continue
-            corners = vertices[triangles]
-            points = vertices[own]
-            low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+            points = vertices[limb.beyond_web if body.endswith(f"_{limb.side}") else limb.all]
+            low, high = boxes[body]
             points = points[np.all((points > low) & (points < high), axis=1)]
-            inside = points[winding_numbers(points, corners) > 0.5]
+            for contact in contacts:
+                points = points[np.linalg.norm(points - contact, axis=1) > CONTACT_M]
+            inside = points[winding_numbers(points, surface) > 0.5]
             if len(inside):
-                depth = distances(inside, corners)
+                depth = distances(inside, surface)
                 k = int(depth.argmax())
                 x, y, z = (float(v) for v in inside[k])
-                found.append(Penetration(limb, body, float(depth[k]), (x, y, z)))
+                found.append(Penetration(name, body, float(depth[k]), (x, y, z)))
     return tuple(sorted(found, key=lambda p: -p.depth_m))
 
 
 @lru_cache(maxsize=4)
 def _regions(rig: Rig) -> _Regions:
     mesh = rig.mesh
-    region = _joint_regions(rig, anatomy(rig.chain, rig.coordinates))
-    names = ("trunk", "head", "arm_L", "arm_R")
+    structure = anatomy(rig.chain, rig.coordinates)
+    carriers = _carriers(rig)
+    region = _joint_regions(rig, structure, carriers)
+    names = dict.fromkeys(str(name) for name in region)
     share = {name: np.sum(mesh.weights * (region == name)[mesh.joints], axis=1) for name in names}
     bounding = np.zeros(len(mesh.triangles), dtype=np.bool_)
     for part in mesh.parts:
@@ -90,29 +110,41 @@ def _regions(rig: Rig) -> _Regions:
     for name in names:
         whole = (share[name][mesh.triangles] > 0.5).all(axis=1)
         surfaces[name] = mesh.triangles[bounding & whole]
-    limbs = {
-        f"arm_{side}": on_surface
-        & (share[f"arm_{side}"] > OWN_WEIGHT)
-        & (_along_upper_arm(rig, side) > ARMPIT)
-        for side in "LR"
-    }
+    limbs = {}
+    for name in names:
+        if name in ("trunk", "head"):
+            continue
+        side = name[-1]
+        own = on_surface & (share[name] > OWN_WEIGHT)
+        if name.startswith("arm_"):
+            own &= _along_upper_arm(rig, side) > ARMPIT
+            limbs[name] = _Limb(side, np.flatnonzero(own), np.empty(0, dtype=np.int64))
+            continue
+        second = rig.bones[f"{name}_2"].node
+        far = np.array([n >= 0 and structure.is_above(second, n) for n in carriers])
+        beyond = np.sum(mesh.weights * far[mesh.joints], axis=1) > OWN_WEIGHT
+        limbs[name] = _Limb(side, np.flatnonzero(own), np.flatnonzero(own & beyond))
     return _Regions(limbs, surfaces)
 
 
-def _joint_regions(rig: Rig, structure: Anatomy) -> NDArray[np.str_]:
-    """Region that each joint of the skeleton moves with, (J,)."""
-    limbs = {f"arm_{side}": rig.bones[f"arm_{side}"].node for side in "LR"}
-    head = rig.bones["neck"].origin_node
-    out = []
+def _carriers(rig: Rig) -> list[int]:
+    """Node that each joint of the skeleton moves with, −1 for none, (J,)."""
+    nodes = []
     for j in range(len(rig.skeleton.names)):
         source = int(rig.drive.helper_of[j])
-        node = int(rig.drive.node[source if source >= 0 else j])
-        name = "trunk"
-        if node >= 0:
-            if structure.is_above(head, node):
-                name = "head"
-            name = next((s for s, n in limbs.items() if structure.is_above(n, node)), name)
-        out.append(name)
+        nodes.append(int(rig.drive.node[source if source >= 0 else j]))
+    return nodes
+
+
+def _joint_regions(rig: Rig, structure: Anatomy, carriers: list[int]) -> NDArray[np.str_]:
+    """Region that each joint of the skeleton moves with, (J,)."""
+    limbs = {"head": rig.bones["neck"].origin_node}
+    limbs |= {f"arm_{side}": rig.bones[f"arm_{side}"].node for side in "LR"}
+    limbs |= {f"{d}_{side}": rig.bones[f"{d}_{side}_1"].node for side in "LR" for d in DIGITS}
+    out = []
+    for node in carriers:
+        above = [name for name, n in limbs.items() if node >= 0 and structure.is_above(n, node)]
+        out.append(above[-1] if above else "trunk")
     return np.array(out)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,7 @@ class ProblemReport:
     merged_into: str | None
     moved: tuple[str, ...]
     iterations: int | None = None
-    solve_s: float = 0.0
+    solve_s: float = field(default=0.0, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -63,39 +63,42 @@ def _wind(points, triangles, out):  # type: ignore[no-untyped-def]
         out[n] = total / (2.0 * math.pi)
 
 
-@njit
-def _dot(a, b):  # type: ignore[no-untyped-def]
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
 @njit(types.void(_points, _triangles, _values), cache=True)
 def _measure(points, triangles, out):  # type: ignore[no-untyped-def]
     """Nearest point of each triangle, by its Voronoi regions (Ericson 2005, §5.1.5)."""
     for n in range(points.shape[0]):
-        p = points[n]
         best = np.inf
         for t in range(triangles.shape[0]):
-            a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-            ab, ac, ap = b - a, c - a, p - a
-            d1, d2 = _dot(ab, ap), _dot(ac, ap)
-            bp, cp = p - b, p - c
-            d3, d4 = _dot(ab, bp), _dot(ac, bp)
-            d5, d6 = _dot(ab, cp), _dot(ac, cp)
+            d1, d2, d3, d4, d5, d6 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+            for i in range(3):
+                a, b, c = triangles[t, 0, i], triangles[t, 1, i], triangles[t, 2, i]
+                p = points[n, i]
+                d1 += (b - a) * (p - a)
+                d2 += (c - a) * (p - a)
+                d3 += (b - a) * (p - b)
+                d4 += (c - a) * (p - b)
+                d5 += (b - a) * (p - c)
+                d6 += (c - a) * (p - c)
             va, vb, vc = d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2
+            v, w = 0.0, 0.0  # of the nearest point: a + v (b − a) + w (c − a)
             if d1 <= 0.0 and d2 <= 0.0:
-                near = a
+                pass
             elif d3 >= 0.0 and d4 <= d3:
-                near = b
+                v = 1.0
             elif d6 >= 0.0 and d5 <= d6:
-                near = c
+                w = 1.0
             elif vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
-                near = a + d1 / (d1 - d3) * ab
+                v = d1 / (d1 - d3)
             elif vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
-                near = a + d2 / (d2 - d6) * ac
+                w = d2 / (d2 - d6)
             elif va <= 0.0 and d4 >= d3 and d5 >= d6:
-                near = b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)
+                w = (d4 - d3) / ((d4 - d3) + (d5 - d6))
+                v = 1.0 - w
             else:
-                near = a + (vb * ab + vc * ac) / (va + vb + vc)
-            gap = p - near
-            best = min(best, _dot(gap, gap))
+                v, w = vb / (va + vb + vc), vc / (va + vb + vc)
+            square = 0.0
+            for i in range(3):
+                a, b, c = triangles[t, 0, i], triangles[t, 1, i], triangles[t, 2, i]
+                square += (points[n, i] - a - v * (b - a) - w * (c - a)) ** 2
+            best = min(best, square)
         out[n] = math.sqrt(best)

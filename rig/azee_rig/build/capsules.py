@@ -203,20 +203,26 @@ def _pairs() -> Iterator[tuple[str, str]]:
 
 
 def _same_or_webbed(first: str, second: str) -> bool:
-    """Whether two phalanges of one hand belong together: one digit, or neighbours at their web."""
+    """Whether two phalanges of one hand belong together: one digit, or neighbours at their web.
+
+    The thumb's web is at its first phalanx alone: the others can lie along the index.
+    """
     (a, _, i), (b, _, j) = first.split("_"), second.split("_")
     apart = abs(DIGITS.index(a) - DIGITS.index(b))
+    if "thumb" in (a, b):
+        return apart == 0 or (apart == 1 and (i if a == "thumb" else j) == "1")
     return apart == 0 or (apart == 1 and "1" in (i, j))
 
 
 def _finger_pairs(names: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    """Fingers against trunk, head and the other arm and hand; and against other digits."""
+    """Fingers against trunk, head, the other arm and hand, other digits; thumbs, their palm."""
     body = [n for n in names if n.startswith(("trunk", "collar")) or n in ("neck", *HEAD)]
     own = {
         s: [n for n in names if n.split("_")[0] in DIGITS and n.split("_")[1] == s] for s in SIDES
     }
     for side, other in zip(SIDES, reversed(SIDES), strict=True):
         yield from product(own[side], [*body, *_arm_names(other), f"shoulder_{other}"])
+        yield from product([f"thumb_{side}_{k}" for k in (2, 3)], _arm_names(side)[2:])
         for i, first in enumerate(own[side]):
             for second in own[side][i + 1 :]:
                 if not _same_or_webbed(first, second):

@@ -1,0 +1,123 @@
+"""How deep the skin enters itself at the key postures of all examples and rules.
+
+`python -m benchmarks.penetration [-o FILE.json] [NAME …]`. Every example under examples/ and the
+example of every rule that ships is compiled; at each key posture the posed mesh is asked where
+arms and digits lie inside trunk, head or each other, but for places where a constraint brings two
+sites together. The worst ten are printed, and whether the report named them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.cli.rules import _example
+from azee.compilation import perform, score_of
+from azee.lang.library import shipped_library
+from azee.lang.program import evaluate_expression, load
+from azee.motion.posture import KeyPosture
+from azee.score.score import Score
+from azee_grammar.files import read_source
+from azee_grammar.library import shipped_names
+from azee_rig.load import load_rig
+from azee_rig.rig import Rig
+from azee_solver.constraint import Place
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import Side, SitePoint
+from azee_solver.penetration import mesh_penetration
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+TOLERATED_M = 3e-3
+WORST = 10
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A limb inside another part of the body in a key posture of a sign."""
+
+    sign: str
+    time_s: float
+    limb: str
+    body: str
+    depth_mm: float
+    unmet: tuple[str, ...]
+    """Constraints of the same moment that the report calls unmet."""
+
+
+def scores(names: list[str]) -> Iterator[tuple[str, Score]]:
+    """Yield what is to be looked at, by name; all, or those that are named."""
+    for source in sorted(EXAMPLES.glob("*/*.azee")):
+        if not names or source.stem in names:
+            yield source.stem, score_of(load(read_source(source)), None, None)
+    for library in shipped_names():
+        for rule in shipped_library(library).namespace.rules.values():
+            if not names or rule.name in names:
+                yield f":{rule.name}", evaluate_expression(_example(rule, ())).score
+
+
+def findings(sign: str, score: Score, rig: Rig) -> Iterator[Finding]:
+    """Look at the key postures of one score."""
+    made = perform(score, rig, life=False)
+    seen: set[bytes] = set()
+    for posture in made.report.postures:
+        q = np.asarray(posture.coordinates)
+        if q.tobytes() in seen:
+            continue
+        seen.add(q.tobytes())
+        unmet = tuple(c.kind for c in posture.report.constraints if not c.met)
+        for found in mesh_penetration(rig, q, contacts(rig, posture)):
+            yield Finding(
+                sign,
+                round(float(posture.time), 3),
+                found.limb,
+                found.body,
+                round(1000 * found.depth_m, 2),
+                unmet,
+            )
+
+
+def contacts(rig: Rig, posture: KeyPosture) -> list[NDArray[np.float64]]:
+    """Where constraints bring two sites together."""
+    evaluator = Evaluator(rig, Side.RIGHT)
+    frames = rig.chain.frames(posture.coordinates)
+    return [
+        evaluator.site(demand.constraint.site, frames)
+        for demand in posture.demands
+        if isinstance(demand.constraint, Place) and isinstance(demand.constraint.point, SitePoint)
+    ]
+
+
+def main() -> int:
+    """Print the worst; 1 if one is deeper than what is tolerated."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", help="examples and rules; by default all")
+    parser.add_argument("-o", "--output", type=Path, help="everything, as JSON")
+    arguments = parser.parse_args()
+    rig = load_rig()
+    found: list[Finding] = []
+    looked_at = 0
+    for sign, score in scores(arguments.names):
+        looked_at += 1
+        found += findings(sign, score, rig)
+    found.sort(key=lambda f: -f.depth_mm)
+    print(f"{looked_at} examples and rules; where the skin enters itself most:")
+    for f in found[:WORST]:
+        note = f"  unmet: {', '.join(f.unmet)}" if f.unmet else ""
+        print(
+            f"{f.depth_mm:6.1f} mm  {f.sign:<22} at {f.time_s:5.2f} s  {f.limb} in {f.body}{note}"
+        )
+    if arguments.output:
+        rows = [asdict(f) for f in found]
+        arguments.output.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    return int(any(f.depth_mm > 1000 * TOLERATED_M for f in found))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

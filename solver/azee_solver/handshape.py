@@ -1,0 +1,92 @@
+"""Handshapes that fit the hand: a thumb lies on the fingers, not in them.
+
+Presets say where digits go, by angles that know nothing of flesh: the angles of a straight thumb
+put it into the palm, those of a fist through the index. Here thumbs give way, each in its own
+joints and as little as will do, before anything else is solved; the angles that come of it are
+what the presets then ask for. The rest of the body has no part in this, so that a handshape is
+the same wherever the hand is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver.anatomy import Part, anatomy
+from azee_solver.binding import Binding
+from azee_solver.collisions import Obstacles
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import Side
+from azee_solver.program import Collisions, Cost, Program
+from azee_solver.tape import Tape
+
+if TYPE_CHECKING:
+    from azee_rig.rig import Rig
+
+Array = NDArray[np.float64]
+
+KEEP = 4.0
+"""Cost of a squared radian away from a preset, beside which an overlap of 1 mm costs 1."""
+OVERLAP = 1e6
+ROUNDS, TOLERANCE = 80, 1e-9
+GAVE_WAY_RAD = 1e-4
+"""A thumb that has moved by less has nothing in its way."""
+MARGIN_M = 0.003
+"""Capsules hold most of the skin, not all: so far a thumb stays away from them."""
+
+
+def fitted(rig: Rig, presets: Mapping[int, float]) -> dict[int, float]:
+    """Return the angles of presets, by coordinate, with thumbs beside or on what they would enter.
+
+    Args: presets: angles that morphs ask for, radians, by coordinate.
+    """
+    out = dict(presets)
+    hands = anatomy(rig.chain, rig.coordinates).of(Part.HAND)
+    for side in ("L", "R"):
+        own = tuple(
+            (v, angle)
+            for v, angle in sorted(presets.items())
+            if v in hands and f"_{side}_" in rig.coordinates.names[v]
+        )
+        out |= _fitted(rig, side, own)
+    return out
+
+
+@lru_cache(maxsize=512)
+def _fitted(rig: Rig, side: str, presets: tuple[tuple[int, float], ...]) -> Mapping[int, float]:
+    """Angles of the thumb's presets on one hand that keep it out of the hand."""
+    limits = rig.coordinates
+    free = [v for v, _ in presets if limits.names[v].startswith(f"thumb_{side}_")]
+    if not free:
+        return {}
+    q = np.array(limits.idle)
+    for v, angle in presets:
+        q[v] = angle
+    np.clip(q, limits.lower, limits.upper, out=q)
+    structure = anatomy(rig.chain, limits)
+    found = Obstacles(Binding(rig, Side.RIGHT), structure, []).for_problem(free, ())
+    program = Program(
+        rig,
+        q,
+        free,
+        Tape(Evaluator(rig, Side.RIGHT), rig.chain.frames(q), structure.moved_by(free)),
+        [],
+        _within(rig, side, found),
+        Cost(q, np.full(len(q), KEEP), np.zeros(len(q)), OVERLAP),
+    )
+    x = program.polish(q[program.free], rounds=ROUNDS, tolerance=TOLERANCE)
+    if np.abs(x - q[program.free]).max() < GAVE_WAY_RAD:
+        return {}
+    return {int(v): float(angle) for v, angle in zip(program.free, x, strict=True)}
+
+
+def _within(rig: Rig, side: str, collisions: Collisions) -> Collisions:
+    """Pairs of capsules that both belong to one hand."""
+    structure = anatomy(rig.chain, rig.coordinates)
+    hand = structure.paths[:, rig.bones[f"palm_{side}"].node]
+    chosen = hand[rig.capsules.node[collisions.pairs]].all(axis=1)
+    return Collisions(collisions.pairs[chosen], collisions.reach[chosen] + MARGIN_M)

@@ -47,3 +47,9 @@ class AZeeError(Exception):
     def __init__(self, *diagnostics: Diagnostic) -> None:
         super().__init__("; ".join(f"{d.code}: {d.message}" for d in diagnostics))
         self.diagnostics = diagnostics
+
+    def _render_traceback_(self) -> list[str]:
+        """Show the diagnostics in the place of a traceback; notebooks ask for this by its name."""
+        from azee_grammar.render import render
+
+        return [line for d in self.diagnostics for line in (*render(d).splitlines(), "")]

@@ -37,6 +37,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.export": {"azee.score", "azee.motion", "azee_rig", "numpy", "PIL", "numba", "av"}
     | DECLARATIONS,
     "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},
+    "azee.notebook": {*OURS, "numpy", "PIL"},
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
     "azee.cli": {*OURS, "click", "rich"},
     "azee": OURS,

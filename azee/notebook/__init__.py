@@ -1,0 +1,1 @@
+"""How scores, clips, bodies and reports show themselves in a notebook."""

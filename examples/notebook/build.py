@@ -1,0 +1,71 @@
+"""Writes azee.ipynb from the cells below; its outputs are not kept, running it makes them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import nbformat
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+NOTEBOOK = Path(__file__).with_name("azee.ipynb")
+CELLS = (
+    """# AZee in a notebook
+
+Scores, moving bodies and reports show themselves. Nothing is fetched from anywhere: the player of
+the body is part of the output. `pip install azee jupyterlab`, then run the cells.""",
+    """    import azee
+
+    made = azee.compile(":info-about(:cinéma, :bien)\\n")
+    made.score""",
+    """The score names who does what, and when. The body that plays it can be turned with the mouse;
+below it is how well each constraint is met.""",
+    """    made""",
+    """A rule of one's own: the thumb at the ear, the hand pointing forwards.""",
+    '''    phone = """
+    def phone
+        'meaning "telephone"
+        key .6
+            cstr
+                :#fingers('index = 1, 'middle = 1, 'ring = 1)
+                :#thumb('spread = 1)
+                place @T_PAD(s) @EAR(s) 'dist .02
+                orient 'nrm !palm(s) 'along in(s)
+                orient 'dir !palm(s) 'along vsum(^fwd, ^up)
+    :info-about(:phone, :bien)
+    """
+    azee.compile(phone)''',
+    """Everything is data: the residuals, the joint coordinates over time, the body.""",
+    """    worst = max(made.report.constraints, key=lambda c: (c.residual or 0) / c.tolerance)
+    print(worst.subject, worst.target, worst.residual, worst.unit)
+    made.clip.coordinates.shape""",
+    """    made.rig""",
+    """What is wrong is said as `azee check` says it.""",
+    """    try:
+        azee.compile(":info-about(:cinema, :well)\\n")
+    except azee.AZeeError as error:
+        print("\\n".join(error._render_traceback_()))""",
+    """The same files as everywhere: `.glb`, `.bvh`, `.json`, `.svg`, `.png`.""",
+    """    made.save("sentence.glb")
+    made.save("sentence.bvh")""",
+)
+"""Cells of code are indented; the others are Markdown."""
+
+
+def notebook() -> nbformat.NotebookNode:
+    """Return the notebook without outputs."""
+    cells = []
+    for number, text in enumerate(CELLS):
+        code = text.startswith("    ")
+        if code:
+            text = "\n".join(
+                line[4:] if line.startswith("    ") else line for line in text.splitlines()
+            )
+        cell = (new_code_cell if code else new_markdown_cell)(text)
+        cell["id"] = f"cell-{number}"
+        cells.append(cell)
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    return new_notebook(cells=cells, metadata={"kernelspec": kernel})
+
+
+if __name__ == "__main__":
+    nbformat.write(notebook(), NOTEBOOK)

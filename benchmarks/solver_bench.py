@@ -35,7 +35,7 @@ from benchmarks.ik.methods import METHODS, Answer
 from benchmarks.ik.page import put_on_page
 from benchmarks.ik.problems import Maker, Problem
 from benchmarks.ik.scaling import by_joints, by_moments, by_problems
-from benchmarks.ik.signs import EXAMPLES, example_tree, examples, signs
+from benchmarks.ik.signs import EXAMPLES, example_tree, examples, figure_5, signs
 
 TREE = EXAMPLES / "tree" / "tree.azee"
 WIDTH = 130
@@ -49,6 +49,7 @@ class Findings:
 
     classes: list[list[Row]] = field(default_factory=list)
     signs: list[dict[str, Any]] = field(default_factory=list)
+    figure_5: list[dict[str, Any]] = field(default_factory=list)
     scaling: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
     process: dict[str, float] = field(default_factory=dict)
     goals: list[Goal] = field(default_factory=list)
@@ -68,6 +69,7 @@ class Findings:
             "problems_per_class": count,
             "comparison": [row.as_json() for rows in self.classes for row in rows],
             "signs": self.signs,
+            "figure_5": self.figure_5,
             "scaling": self.scaling,
             "process": self.process,
             "goals": [goal.as_json() for goal in self.goals],
@@ -170,6 +172,8 @@ def read_signs(found: Findings, console: Console) -> None:
     """Solve all examples."""
     found.signs += signs(load_rig(), examples())
     console.print(tables.signs(found.signs))
+    found.figure_5 += figure_5(load_rig(), TREE)
+    console.print(tables.figure_5(found.figure_5))
     tree = 1000 * example_tree(load_rig(), TREE, runs=9)
     found.goals.append(Goal("tree, full body, all on", tree, "ms", at_most=15))
 

@@ -34,8 +34,23 @@ def _sections(document: Mapping[str, Any]) -> Iterable[str]:
     if document["signs"]:
         yield "### Signs and sentences"
         yield _table(
-            ("text", "solver", "IK problems", "ms", "evaluations", "unmet", "overlap mm", "rounds"),
+            (
+                "text",
+                "solver",
+                "IK problems",
+                "score to clip, ms",
+                "evaluations",
+                "unmet",
+                "overlap, mm",
+                "iterations, most",
+            ),
             [_sign(row) for row in document["signs"]],
+        )
+    if document["figure_5"]:
+        yield "### Figure 5 of the paper: tree by the two-level method"
+        yield _table(
+            ("IK problem", "places", "orientations", "iterations", "ms"),
+            [_figure_5(row) for row in document["figure_5"]],
         )
     if document["scaling"]:
         yield "### How time grows"
@@ -74,12 +89,19 @@ def _sign(row: Mapping[str, Any]) -> tuple[str, ...]:
         row["text"],
         row["solver"],
         str(row["problems"]),
-        _ms(row["solve_s"]),
+        _ms(row["score_to_clip_s"]),
         str(row["evaluations"]),
         f"{row['unmet']} of {row['constraints']}",
         _mm(row["deepest_overlap_m"]),
-        f"{sum(rounds)}, at most {max(rounds)}" if rounds else "",
+        f"{sum(rounds)}, {max(rounds)}" if rounds else "",
     )
+
+
+def _figure_5(row: Mapping[str, Any]) -> tuple[str, ...]:
+    orientations = row["constraints"] - row["places"]
+    name = f"{row['problem']}: {row['name']}"
+    counts = (row["places"], orientations, row["iterations"])
+    return name, *map(str, counts), _ms(row["seconds"])
 
 
 def _mm(length_m: float) -> str:

@@ -14,7 +14,7 @@ SOURCE = HERE.parent / "examples" / "not-but" / "not-but.azee"
 def main() -> int:
     """Draw them; returns the first exit code that is not zero."""
     sheet, tracks = (HERE / "pictures" / f"not-but-{name}.png" for name in ("sheet", "tracks"))
-    size = ["--size", "480x360"]
+    size = ["--size", "500x400"]
     return run(["render", str(SOURCE), "-o", str(sheet), "--sheet", *size]) or run(
         ["score", str(SOURCE), "-o", str(tracks), "--tracks"]
     )

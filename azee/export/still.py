@@ -19,8 +19,10 @@ from azee.motion.clip import Clip
 from azee.motion.resample import sampled
 from azee_rig.rig import Rig
 
-MOST = 9
+MOST = 12
 """Key postures on a sheet; of more, those that differ most from each other."""
+SECOND_RAD = 1.5
+"""As how much of a turn a second counts, so that the sheet has something of every time."""
 UPRIGHT = 0.8
 """Width by height of a picture on a sheet."""
 WIDEST = 1800
@@ -55,7 +57,7 @@ def write_sheet(
     """
     keys = resting_times(clip) if key_times is None else key_times
     keys = [float(clip.times[0]), *keys, float(clip.times[-1])]
-    chosen = [float(clip.times[i]) for i in telling_frames(clip, keys, MOST)]
+    chosen = [float(clip.times[i]) for i in telling_frames(clip, keys, MOST, SECOND_RAD)]
     between = [(a + b) / 2 for a, b in pairwise(chosen)]
     times = sorted({*chosen, *between})
     height = max(160, look.size[1] // 2)
@@ -63,7 +65,7 @@ def write_sheet(
     small = replace(look, size=size, transparent=False, captions=False)
     images = _drawn(clip, rig, small, times)
     captions = [
-        f"{time:.2f} s {'key' if time in chosen else 'between'}  {running(clip, time)}"
+        f"{'key' if time in chosen else 'then'} {time:.2f} s  {running(clip, time)}"
         for time in times
     ]
     pictures = [

@@ -43,10 +43,16 @@ def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) 
         file.write(data.getvalue())
 
 
-def telling_frames(clip: Clip, moments: Sequence[float], most: int) -> list[int]:
-    """Choose, of the frames at some moments (seconds), those whose postures tell most."""
+def telling_frames(
+    clip: Clip, moments: Sequence[float], most: int, second_rad: float = 0.0
+) -> list[int]:
+    """Choose, of the frames at some moments (seconds), those whose postures tell most.
+
+    Args: second_rad: as how much of a turn a second counts that lies between two postures.
+    """
     frames = sorted({int(np.abs(clip.times - moment).argmin()) for moment in moments})
-    shapes = np.hstack([clip.coordinates, FACE_RAD * clip.unit_weights])[frames]
+    late = second_rad * clip.times[:, None]
+    shapes = np.hstack([clip.coordinates, FACE_RAD * clip.unit_weights, late])[frames]
     return [frames[i] for i in telling(shapes, most)]
 
 

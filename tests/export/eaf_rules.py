@@ -1,4 +1,4 @@
-"""What EAF 3.0 demands of a file, checked rule by rule; written from the format's description.
+"""What EAF 3.0 demands of a file, checked rule by rule: what EAFv3.0.xsd says of what we write.
 
 The schema says which elements stand in which order, which attributes they have and must have, and
 what refers to what. What ELAN demands beyond it: annotations of a tier do not overlap and have a

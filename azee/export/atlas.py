@@ -12,7 +12,15 @@ from PIL import Image, ImageDraw, ImageFont
 
 from azee.export.files import replace_file
 from azee.export.marks import INK, Mark, View
-from azee.export.picture import Camera, camera, contact_sheet, picture, projected, render
+from azee.export.picture import (
+    Camera,
+    camera,
+    contact_sheet,
+    from_direction,
+    picture,
+    projected,
+    render,
+)
 from azee_rig.rig import Rig
 
 Floats = NDArray[np.float64]
@@ -39,6 +47,10 @@ HAND_UP: Mapping[str, float] = {
     "little_R_1.deviation": -36.0,
 }
 """Degrees."""
+
+MORPH_VIEW_M = 0.105
+"""Half the height of the face that a morph is shown on: from the forehead to under the chin."""
+FROM_THE_SIDE = frozenset({"AU29"})
 
 
 def site_sheet(rig: Rig) -> Image.Image:
@@ -151,14 +163,30 @@ def _limit_view(coordinate: str) -> str:
 
 
 def morph_sheet(rig: Rig) -> Image.Image:
-    """Show every facial morph of AZee that the face can show, at weight 1."""
-    return contact_sheet(
-        [
-            (name, picture(rig, rig.coordinates.idle, "face", units, (150, 165)))
-            for name, units in rig.face_morphs.items()
-        ],
-        12,
-    )
+    """Show every facial morph of AZee at weight 1; first the face at rest.
+
+    A morph that the face cannot show has a tile without a face that says so. The chin's thrust
+    is seen from the side.
+    """
+    q, size = rig.coordinates.idle, (160, 176)
+    eyes = rig.chain.frames(q).positions[[rig.bones[f"eye_{side}"].node for side in "LR"]]
+    middle = eyes.mean(axis=0) + np.array([0.0, -0.03, -0.03])
+    views = {
+        side: from_direction(middle, np.array(towards_eye), MORPH_VIEW_M)
+        for side, towards_eye in (("front", (0.0, 0.03, 1.0)), ("side", (-1.0, 0.03, 0.25)))
+    }
+    pose = rig.pose(q)
+    shown = [("at rest", render(rig.skin(pose), rig.mesh, views["front"], size))]
+    for name in (*rig.face_morphs, *rig.unexpressed_morphs):
+        if name in rig.face_morphs:
+            vertices = rig.skin(pose, rig.face_morphs[name])
+            view = views["side" if name in FROM_THE_SIDE else "front"]
+            tile = render(vertices, rig.mesh, view, size)
+        else:
+            tile = Image.new("RGB", size, (235, 235, 235))
+            ImageDraw.Draw(tile).text((12, 96), "cannot be shown", fill=INK)
+        shown.append((name, tile))
+    return contact_sheet(shown, 12)
 
 
 SHEETS: Mapping[str, Callable[[Rig], Image.Image]] = {

@@ -11,7 +11,46 @@ def test_every_facial_morph_is_shown_or_its_lack_is_explained(signer: Rig) -> No
     assert set(signer.face_morphs) | set(signer.unexpressed_morphs) == facial
     assert not set(signer.face_morphs) & set(signer.unexpressed_morphs)
     assert all(len(reason) > 20 for reason in signer.unexpressed_morphs.values())
-    assert len(signer.unexpressed_morphs) <= 6
+
+
+def test_every_facial_morph_is_seen(signer: Rig) -> None:
+    """On a head and shoulders of 480 pixels skin moves by 2 pixels or more, not just one point."""
+    mesh = signer.mesh
+    pixel_m = 2 * 0.165 / 480
+    inside = {"teeth", "eyes", "lashes"}
+    hidden = [p for p in mesh.parts if p.name in inside]
+    covered = {int(v) for p in hidden for v in mesh.triangles[p.start : p.stop].ravel()}
+    for name, units in signer.face_morphs.items():
+        moved = np.zeros((len(mesh.vertices), 3))
+        for unit, weight in units.items():
+            rows, deltas = mesh.unit(unit)
+            moved[rows] += weight * deltas
+        far = np.flatnonzero(np.linalg.norm(moved, axis=1) > 2 * pixel_m)
+        assert len(set(far.tolist()) - covered) >= 12, name
+
+
+def test_the_tongue_moves_alone(signer: Rig) -> None:
+    mesh = signer.mesh
+    (part,) = (p for p in mesh.parts if p.name == "tongue")
+    tongue = set(np.unique(mesh.triangles[part.start : part.stop]).tolist())
+    for unit, axis, sign in (
+        ("tongueUp", 1, 1.0),
+        ("tongueDown", 1, -1.0),
+        ("tongueBackUp", 1, 1.0),
+    ):
+        rows, deltas = mesh.unit(unit)
+        assert set(rows.tolist()) <= tongue
+        assert (sign * deltas[:, axis]).max() > 0.008
+    rows, deltas = mesh.unit("tongueWide")
+    assert (deltas[:, 0] * mesh.vertices[rows, 0]).min() > 0.0
+
+
+def test_a_cheek_bulges_on_its_side(signer: Rig) -> None:
+    mesh = signer.mesh
+    for unit, sign in (("cheekBulgeLeft", 1.0), ("cheekBulgeRight", -1.0)):
+        rows, deltas = mesh.unit(unit)
+        assert (sign * mesh.vertices[rows, 0]).min() > 0.0
+        assert 0.006 < np.linalg.norm(deltas, axis=1).max() < 0.012
 
 
 def test_every_skeletal_morph_is_there(signer: Rig) -> None:

@@ -4,6 +4,7 @@ import numpy as np
 
 from azee_rig.mesh import vertex_normals
 from azee_rig.rig import Rig
+from azee_rig.skin import joint_frames
 
 
 def test_skin_at_bind_is_the_mesh(signer: Rig) -> None:
@@ -37,6 +38,19 @@ def test_normals_of_a_square() -> None:
     square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     normals = vertex_normals(square, np.array([[0, 1, 2], [0, 2, 3]]))
     np.testing.assert_allclose(normals, np.tile([0.0, 0.0, 1.0], (4, 1)))
+
+
+def test_skin_is_linear_blending(signer: Rig) -> None:
+    """Σ_j w_j (R_j (v − p̄_j) + p_j), with a matrix of weights, in any posture and with a face."""
+    random = np.random.default_rng(5)
+    c, mesh = signer.coordinates, signer.mesh
+    pose = signer.pose(random.uniform(c.lower, c.upper))
+    face = random.uniform(-0.5, 1.0, len(signer.units))
+    positions, rotations = joint_frames(signer.skeleton, pose)
+    away = mesh.shaped(face)[:, None] - signer.skeleton.rest_positions
+    each = np.einsum("jab,njb->nja", rotations, away) + positions
+    expected = np.einsum("nj,nja->na", mesh.dense_weights, each)
+    np.testing.assert_allclose(signer.skin(pose, face), expected, atol=1e-12)
 
 
 def test_eyes_turn_their_balls_and_nothing_else(signer: Rig) -> None:

@@ -15,14 +15,18 @@ from azee_rig.build.hair import hair
 from azee_rig.build.makehuman import Body
 from azee_rig.build.piece import Piece
 
+Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 SKIN = (0.40, 0.215, 0.140)
 LASHES = (0.012, 0.009, 0.007)
 TEETH = (0.72, 0.69, 0.62)
 TONGUE = (0.36, 0.10, 0.10)
-TEETH_BACK_M = 0.002
-"""How far the teeth step back, so that closed lips hide them."""
+TEETH_BACK_M = 0.0025
+TEETH_WIDTH = 0.86
+"""How far the teeth step back, and how narrow they become, so that closed lips hide them."""
+LASH_LENGTH = 0.45
+"""Lashes are a solid strip here, not single hairs: so much of their length looks as heavy."""
 
 
 def dress(body: Body, whole: Piece, anatomy: Anatomy, regions: Mapping[str, Ints]) -> list[Piece]:
@@ -50,13 +54,34 @@ def dress(body: Body, whole: Piece, anatomy: Anatomy, regions: Mapping[str, Ints
         hair(skin, ears[skin_rows], anatomy),
         brows(skin, anatomy, BROW_COLOUR),
         eyeballs(anatomy, eyes),
-        replace(cut(*upper_lashes), name="lashes", colour=LASHES, roughness=0.9),
+        _lashes(cut(*upper_lashes), np.array([anatomy.origin(f"eye_{side}") for side in SIDES])),
         replace(
             teeth,
-            vertices=teeth.vertices - (0.0, 0.0, TEETH_BACK_M),
+            vertices=teeth.vertices * (TEETH_WIDTH, 1.0, 1.0) - (0.0, 0.0, TEETH_BACK_M),
             name="teeth",
             colour=TEETH,
             roughness=0.35,
         ),
-        replace(cut("helper-tongue"), name="tongue", colour=TONGUE, roughness=0.5),
+        replace(
+            cut("helper-tongue").subdivided().smoothed(2),
+            name="tongue",
+            colour=TONGUE,
+            roughness=0.5,
+        ),
     ]
+
+
+def _lashes(long: Piece, eyes: Floats) -> Piece:
+    """Lashes cut short: each place drawn towards the root nearest to it, whatever moves.
+
+    eyes: (2, 3). Roots are those half of the places that lie nearest to an eye.
+    """
+    reach = np.linalg.norm(long.vertices[:, None] - eyes, axis=2).min(axis=1)
+    roots = np.flatnonzero(reach <= np.median(reach))
+    apart = np.linalg.norm(long.vertices[:, None] - long.vertices[roots], axis=2)
+    root = roots[apart.argmin(axis=1)]
+    shares = np.tile([LASH_LENGTH, 1.0 - LASH_LENGTH], (len(root), 1))
+    rows = np.stack([np.arange(len(root)), root], axis=1)
+    places = np.einsum("mk,mkc->mc", shares, long.vertices[rows])
+    short = replace(long.blend(rows, shares, places), triangles=long.triangles)
+    return replace(short, name="lashes", colour=LASHES, roughness=0.9)

@@ -10,19 +10,20 @@ from typing import TYPE_CHECKING
 
 import click
 
+from azee.cli.body import load_body
 from azee.cli.console import DONE, FAULT
 from azee.cli.text import dominant_option, library_option
 
 if TYPE_CHECKING:
     from azee.compilation import Hand
 
+SHIPPED = "signer"
+
 
 @click.command(short_help="A prompt to try expressions and rules at.")
 @click.argument("files", nargs=-1, metavar="[FILE…]", type=click.Path(path_type=Path))
 @library_option
-@click.option(
-    "--rig", metavar="R", default="signer", show_default=True, help="The body that plays."
-)
+@click.option("--rig", metavar="R", default=SHIPPED, show_default=True, help="The body that plays.")
 @dominant_option
 @click.option("--plain", is_flag=True, help="No line editing, no colours, no completion.")
 @click.option("--no-history", is_flag=True, help="Neither read nor keep what was typed.")
@@ -53,6 +54,8 @@ def repl(
     from azee.repl.screen import plain_screen
     from azee.repl.session import Session
 
+    if rig != SHIPPED:
+        load_body(rig)  # to be told now, not at the first score
     typed = sys.stdin.isatty()
     on_terminal = typed and sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
     edited = on_terminal and not plain
@@ -81,7 +84,7 @@ def repl(
         converse_edited(answering, remembered(None if no_history else history_file()))
     else:
         converse(answering)
-    if performer.warming:
+    if not performer.ready():
         _leave_now()
     return DONE
 

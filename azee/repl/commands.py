@@ -192,14 +192,9 @@ def _time(repl: Repl, argument: str) -> None:
 
 
 def _rig(repl: Repl, argument: str) -> None:
-    from azee_rig.load import RigError
-
-    try:
-        if argument:
-            repl.performer.change(rig_name=argument)
-        rig = repl.performer.rig
-    except RigError as error:
-        raise Refusal(str(error)) from error
+    if argument:
+        repl.performer.change(rig_name=argument)
+    rig = repl.performer.rig
     free = len(rig.coordinates.names)
     repl.screen.say(
         f"{rig.name}: {len(rig.bones)} bones, {len(rig.sites)} sites, {free} coordinates"

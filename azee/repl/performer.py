@@ -11,6 +11,7 @@ from azee.compilation import Hand
 from azee.lang.values import ConstraintsValue, ScoreValue, Value
 from azee.repl.refusal import Refusal
 from azee.score.score import Key, Score
+from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
     from azee.compilation import Compilation
@@ -34,22 +35,18 @@ class Performer:
 
     @property
     def rig(self) -> Rig:
-        """The body. Raises: RigError: there is none of that name."""
-        from azee_rig.load import load_rig
-
+        """The body. Raises: Refusal: there is none of that name, or it cannot be read."""
         if self._rig is None:
-            self._rig = load_rig(self.rig_name)
+            self._rig = _body(self.rig_name)
         return self._rig
 
     def change(self, rig_name: str | None = None, hand: Hand | None = None) -> None:
         """Take another body or another dominant hand.
 
-        Raises: RigError: there is no such body; then the one before stays.
+        Raises: Refusal: there is no such body; then the one before stays.
         """
-        from azee_rig.load import load_rig
-
         if rig_name is not None:
-            self._rig = load_rig(rig_name)
+            self._rig = _body(rig_name)
             self.rig_name = rig_name
         if hand is not None:
             self.hand = hand
@@ -58,7 +55,7 @@ class Performer:
     def perform(self, score: Score) -> Compilation:
         """Solve a score, unless it is the one that was solved last.
 
-        Raises: AZeeError: the body lacks what the score names.
+        Raises: AZeeError: the body lacks what the score names. Refusal: there is no body.
         """
         from azee.compilation import perform
 
@@ -75,22 +72,29 @@ class Performer:
         self._warming = threading.Thread(target=self._warm, daemon=True, name="warm-up")
         self._warming.start()
 
-    @property
-    def warming(self) -> bool:
-        """Whether getting ready goes on."""
-        return self._warming is not None and self._warming.is_alive()
+    def ready(self, patience_s: float = 0.0) -> bool:
+        """Return whether all is loaded, or is so before patience ends."""
+        if self._warming is not None:
+            self._warming.join(patience_s)
+        return self._warming is None or not self._warming.is_alive()
 
     def _warm(self) -> None:
         from azee.compilation import perform
         from azee.lang.program import evaluate_expression
-        from azee_grammar.diagnostic import AZeeError
-        from azee_rig.load import RigError, load_rig
 
         try:
-            rig = load_rig(self.rig_name)
-            perform(evaluate_expression(WARMING).score, rig)
-        except (AZeeError, RigError):
+            perform(evaluate_expression(WARMING).score, _body(self.rig_name))
+        except (AZeeError, Refusal):
             return  # whoever asks for the body is told
+
+
+def _body(name: str) -> Rig:
+    from azee_rig.load import RigError, load_rig
+
+    try:
+        return load_rig(name)
+    except RigError as error:
+        raise Refusal(str(error)) from error
 
 
 WARMING = ":info-about(:cinéma, :bien)"

@@ -47,7 +47,8 @@ def converse(repl: Repl) -> None:
         try:
             text = _typed(repl)
         except KeyboardInterrupt:
-            repl.screen.say("\nCtrl-D or /quit leaves", Ink.FAINT)
+            repl.screen.put("\n")
+            repl.screen.say("Ctrl-D or /quit leaves", Ink.FAINT)
             continue
         except EOFError:
             repl.screen.put("\n")

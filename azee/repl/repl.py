@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,6 +14,9 @@ from azee.repl.screen import Screen
 from azee.repl.session import Defined, Evaluated, Failed, Outcome, Reloaded, Session, Used
 from azee.repl.value_text import value_lines
 from azee_grammar.diagnostic import AZeeError, Severity
+
+PATIENCE_S = 1.5
+"""After which it is explained why an answer takes longer."""
 
 
 class Quit(Exception):  # noqa: N818 - the user wants to
@@ -62,6 +66,13 @@ class Repl:
             if not self.interactive:
                 raise
             self.screen.say("interrupted", Ink.WARNING)
+        except Quit:
+            raise
+        except Exception:
+            if not self.interactive:
+                raise
+            self.screen.put_wrong(traceback.format_exc())
+            self.screen.say("that is a fault of azee, not yours; the session goes on", Ink.WARNING)
         return False
 
     def load(self, paths: Sequence[Path]) -> bool:
@@ -98,6 +109,8 @@ class Repl:
         score = playable(self.session.last.value) if self.session.last else None
         if score is None:
             return
+        if not self.performer.ready(PATIENCE_S):
+            self.screen.say("getting the solver ready: the first time takes longer …")
         made = self.performer.perform(score)
         self.screen.show(summary(made.report, self.performer.took_s))
 

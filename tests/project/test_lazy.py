@@ -9,7 +9,7 @@ import pytest
 from programs import Python
 
 TEXT = "key 1\n    cstr\n        place @I_TIP(s) @CH\n        orient 'nrm !palm(s) 'along ^up\n"
-HEAVY = ("PIL", "lark", "nlopt", "numba", "numpy", "rich", "scipy", "trimesh")
+HEAVY = ("PIL", "lark", "nlopt", "numba", "numpy", "prompt_toolkit", "rich", "scipy", "trimesh")
 SCRIPT = """
 import json, sys
 from azee.cli.main import run
@@ -23,6 +23,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("render", "--help"): set(),
     ("clip", "cut", "--help"): set(),
     ("repl", "--help"): set(),
+    ("repl",): {"lark"},
     ("rig", "--help"): set(),
     ("rig", "sites", "--format", "json"): {"numpy"},
     ("check", "--quiet", "text.azee"): {"lark"},

@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 
 from azee.lang.program import evaluate_expression
+from azee.repl.commands import COMMANDS
 from azee.repl.diagram import MOST_ROWS, diagram
 from azee.repl.ink import Ink, width, written
 from azee.repl.performer import Performer
@@ -122,6 +123,33 @@ depends on which hand is the strong one
 )
 def test_a_value_is_shown_by_its_kind(text: str, expected: str) -> None:
     assert shown(text) == expected
+
+
+def test_the_page_tells_of_every_command() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "repl.md").read_text(encoding="utf-8")
+    told = page.replace("\\|", "|")
+    assert [c.pattern for c in COMMANDS.values() if f"`{c.pattern}" not in told] == []
+
+
+def test_a_body_that_is_not_there_is_refused(repl: Repl, sheet: Sheet) -> None:
+    assert not repl.run("/rig nobody")
+    assert "nobody" in sheet.taken()
+    assert repl.run("/rig")
+    assert "signer: 44 bones" in sheet.taken()
+
+
+def test_a_fault_of_ours_does_not_end_the_session(
+    repl: Repl, sheet: Sheet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(repl.session, "enter", broken)
+    with pytest.raises(ZeroDivisionError):
+        repl.run("1")
+    repl.interactive = True
+    assert not repl.run("1")
+    assert "the session goes on" in sheet.taken()
 
 
 def test_rules_are_listed_searched_and_described(repl: Repl, sheet: Sheet) -> None:

@@ -152,7 +152,7 @@ def _render(repl: Repl, argument: str) -> None:
     made = repl.performer.perform(_last_score(repl))
     if wish.path is None and not repl.screen.colour:
         raise Refusal("this terminal shows no pictures", "/render FILE.png writes one")
-    text = drawn(made, wish, repl.screen.columns)
+    text = drawn(made, wish, repl.screen.columns, repl.screen.rows)
     if wish.path is None:
         repl.screen.put(text)
     repl.screen.say(f"wrote {wish.path}" if wish.path else f"{wish.at(made):.2f} s")

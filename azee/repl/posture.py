@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from azee.compilation import Compilation
 
 SIZE = (720, 900)
-WIDEST = 64
-"""Columns of a picture in the terminal; a row of text holds two of its rows."""
+WIDEST = 72
+"""Columns of a picture in the terminal. A row of text holds two of its rows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,14 +53,14 @@ class Wish:
         return key_s - made.animation.lead_s
 
 
-def drawn(made: Compilation, wish: Wish, columns: int) -> str:
+def drawn(made: Compilation, wish: Wish, columns: int, rows: int) -> str:
     """Draw a posture; return the text that shows it in a terminal, empty if it went to a file.
 
     Raises: AZeeError: cannot-write.
     """
     if wish.path is None:
-        wide = min(columns, WIDEST)
-        return half_blocks(_picture(made, wish, (wide, wide * 5 // 4 // 2 * 2)))
+        wide = min(columns, WIDEST, rows * 2 * SIZE[0] // SIZE[1])
+        return half_blocks(_picture(made, wish, (wide, wide * SIZE[1] // SIZE[0] // 2 * 2)))
     from azee.export.files import replace_file
 
     data = io.BytesIO()

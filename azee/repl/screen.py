@@ -26,6 +26,11 @@ class Screen:
         """How wide results may be."""
         return self.fixed_columns or min(shutil.get_terminal_size().columns, 160) - 1
 
+    @property
+    def rows(self) -> int:
+        """How high a result may be that is to be seen at a glance."""
+        return max(8, shutil.get_terminal_size().lines - 4)
+
     def show(self, lines: Iterable[Line]) -> None:
         """Write lines."""
         self.put(written(lines, colour=self.colour))

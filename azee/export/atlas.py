@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
 from azee.export.files import replace_file
 from azee.export.marks import INK, Mark, View
@@ -21,6 +21,7 @@ from azee.export.picture import (
     projected,
     render,
 )
+from azee.export.typeface import typeface
 from azee_rig.rig import Rig
 
 Floats = NDArray[np.float64]
@@ -117,7 +118,7 @@ def _with_axes(rig: Rig, q: Floats, eye: Camera, bones: list[str], length: float
     image = render(rig.skin(rig.pose(q)), rig.mesh, eye, size)
     image = Image.blend(image, Image.new("RGB", size, "white"), 0.6)
     draw = ImageDraw.Draw(image)
-    font = ImageFont.load_default(11)
+    font = typeface(11)
     frames = rig.chain.frames(q)
     for bone in bones:
         nodes = rig.bones[bone]

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
 from azee.export.picture import Camera, depth_map, projected, render
+from azee.export.typeface import typeface
 from azee_rig.mesh import BodyMesh
 
 Floats = NDArray[np.float64]
@@ -75,7 +76,7 @@ class View:
         screen, _ = projected(np.array([m.point for m in marks]), self.camera, width, height)
         places = screen[:, :2] + (MARGIN_PX, 0)
         draw = ImageDraw.Draw(image)
-        font = ImageFont.load_default(FONT_PX)
+        font = typeface(FONT_PX)
         by_side = np.argsort(places[:, 0], kind="stable")
         half = (len(marks) + 1) // 2
         for left, chosen in ((True, by_side[:half]), (False, by_side[half:])):

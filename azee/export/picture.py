@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
+from azee.export.typeface import typeface
 from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Rig
 
@@ -155,7 +156,7 @@ def contact_sheet(
     rows = -(-len(pictures) // columns)
     sheet = Image.new("RGB", (columns * width, rows * (height + band)), "white")
     draw = ImageDraw.Draw(sheet)
-    font = ImageFont.load_default(13)
+    font = typeface(13)
     for i, (caption, image) in enumerate(pictures):
         x, y = i % columns * width, i // columns * (height + band)
         sheet.paste(image, (x, y))

@@ -71,6 +71,10 @@ class Scene:
 
     def frame(self, index: int, canvases: list[Canvas]) -> Pixels:
         """Return a frame, (H, W, 3), or (H, W, 4) if it is transparent."""
+        return self._captioned(index, self._drawn(index, canvases))
+
+    def _drawn(self, index: int, canvases: list[Canvas]) -> Pixels:
+        """Draw what the cameras see, side by side; threads may do so at once."""
         root = np.broadcast_to(self.poses.root_translation, (len(self.clip.times), 3))[index]
         pose = Pose(root, self.poses.rotations[index])
         vertices = self.rig.skin(pose, self.faces[index])
@@ -79,7 +83,10 @@ class Scene:
             canvas.draw(vertices, shown[index], clear)
             for canvas, shown in zip(canvases, self.cameras, strict=True)
         ]
-        drawn = np.concatenate(panels, axis=1)
+        return np.concatenate(panels, axis=1)
+
+    def _captioned(self, index: int, drawn: Pixels) -> Pixels:
+        """Put the strip under a frame."""
         if not self.strip.height:
             return drawn
         strip = self.strip.draw(float(self.clip.times[index]))
@@ -96,19 +103,23 @@ class Scene:
         def drawn(index: int) -> Pixels:
             canvases = free.get()
             try:
-                return self.frame(index, canvases)
+                return self._drawn(index, canvases)
             finally:
                 free.put(canvases)
 
         with ThreadPoolExecutor(workers) as pool:
-            waiting: deque[Future[Pixels]] = deque()
+            waiting: deque[tuple[int, Future[Pixels]]] = deque()
             try:
                 for index in chosen:
-                    waiting.append(pool.submit(drawn, index))
+                    waiting.append((index, pool.submit(drawn, index)))
                     if len(waiting) > 2 * workers:
-                        yield waiting.popleft().result()
+                        yield self._next(waiting)
                 while waiting:
-                    yield waiting.popleft().result()
+                    yield self._next(waiting)
             finally:
-                for left in waiting:
+                for _, left in waiting:
                     left.cancel()
+
+    def _next(self, waiting: deque[tuple[int, Future[Pixels]]]) -> Pixels:
+        index, drawn = waiting.popleft()
+        return self._captioned(index, drawn.result())

@@ -6,12 +6,13 @@ import io
 from collections.abc import Sequence
 from pathlib import Path
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
 from azee.export.files import replace_file
 from azee.export.score_drawing import score_drawing
 from azee.export.shapes import Line, Rect, Shape, Text, Told
 from azee.export.track_rows import Row
+from azee.export.typeface import typeface
 from azee.score.score import Score
 
 FINE = 2
@@ -72,7 +73,7 @@ class _Pen:
                 self._line(x1, y1, x2, y2, INKS[kind], DASHES.get(kind), 2 if kind == "mark" else 1)
             case Text(text, x, y, kind):
                 size, ink, anchor = TEXTS[kind]
-                font = ImageFont.load_default(size * self._fine)
+                font = typeface(size * self._fine)
                 line = text.replace("\n", " ")
                 at = (x * self._fine, y * self._fine)
                 self._draw.text(at, line, fill=ink, font=font, anchor=anchor)

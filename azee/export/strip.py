@@ -7,12 +7,12 @@ share their row. Levels beyond the last row stand behind their outer block in th
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from azee.export.typeface import typeface
 from azee.motion.clip import Label
 
 Pixels = NDArray[np.uint8]
@@ -54,7 +54,7 @@ class Strip:
     def _picture(self, rows: Sequence[Sequence[Label]], time_s: float) -> Pixels:
         image = Image.new("RGBA", (self.width, self.height), PAPER)
         pen = ImageDraw.Draw(image)
-        font = _font(round(self.line * 0.72))
+        font = typeface(round(self.line * 0.72))
         for n, row in enumerate(rows):
             left, top = 8, 4 + n * (self.line + 4)
             room = (self.width - 8) // max(1, len(row))
@@ -85,14 +85,9 @@ class Strip:
         return int(share * self.line * 8)
 
 
-def _fitted(text: str, font: ImageFont.ImageFont | ImageFont.FreeTypeFont, room: float) -> str:
+def _fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
     if font.getlength(text) <= room:
         return text
     while text and font.getlength(f"{text}…") > room:
         text = text[:-1]
     return f"{text}…"
-
-
-@lru_cache(maxsize=8)
-def _font(size: int) -> ImageFont.ImageFont | ImageFont.FreeTypeFont:
-    return ImageFont.load_default(size)

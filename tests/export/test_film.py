@@ -22,6 +22,7 @@ from azee.export.scene import Look, Scene
 from azee.export.shots import SHOTS
 from azee.export.still import resting_times
 from azee.export.strip import Strip
+from azee.export.typeface import typeface
 from azee.motion.clip import Clip, Label
 from azee_rig.rig import Rig
 
@@ -145,6 +146,13 @@ def test_the_strip_names_what_runs(waving: Clip) -> None:
     deep = tuple(Label(tuple("abcdefg"[: n + 1]), 0.0, 1.0) for n in range(7))
     last = Strip(deep, (640, 360)).running(0.5)[-1]
     assert [label.text for label in last] == ["d", "e", "f", "g"], "none is left out"
+
+
+def test_every_letter_of_european_names_can_be_written() -> None:
+    font = typeface(24)
+    nothing = bytes(font.getmask("\uffff"))
+    letters = "éèêëçñäößøåæœğşıİřžłőșțΩжé · › – … “x”"
+    assert [c for c in letters if c != " " and bytes(font.getmask(c)) == nothing] == []
 
 
 def test_frames_are_the_same_however_many_threads_draw_them(waving: Clip, signer: Rig) -> None:

@@ -1,0 +1,19 @@
+"""The one typeface of pictures and films: the same letters on every machine, accents included.
+
+Roboto Regular (Apache License 2.0), with Latin, Greek and Cyrillic; Pillow's own has no accents.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+from PIL import ImageFont
+
+FILE = Path(__file__).parent / "data" / "Roboto-Regular.ttf"
+
+
+@lru_cache(maxsize=16)
+def typeface(size_px: float) -> ImageFont.FreeTypeFont:
+    """Return the typeface at a size in pixels."""
+    return ImageFont.truetype(FILE, size_px, layout_engine=ImageFont.Layout.BASIC)

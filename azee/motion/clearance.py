@@ -36,14 +36,14 @@ SEEN = 0.3
 """Pairs are in the way when nearer than this share of the distance that ways keep."""
 LEAST_M = 0.002
 """What comes nearer by no more than this than it is at an end of the way is let be."""
-NEAR_M = 0.04
+NEAR_M = 0.025
 """Pairs farther apart than this at the start of a detour do not bear on it."""
 ABOUT_S = Fraction(1, 2)
 """A touch that is meant so near in time is meant on the way to it and from it."""
 STEP_S = 1 / 50
 CHUNK = 240
 MOST_SAMPLES = 20
-STEPS = 16
+STEPS, STRIDE_RAD = 16, 0.15
 PASSES = 4
 TAPER = 0.35
 """Share of the way from an end in which what is near there comes apart."""
@@ -226,19 +226,20 @@ class _Search:
     def least(self) -> Array | None:
         """Return the change, (n,) radians; none if it would hardly lessen the overlaps."""
         n = self.basis.shape[2]
-        near = self.overlaps.depth(self.q, self.reach, NEAR_M) > -NEAR_M
-        pairs = np.flatnonzero(np.any(near, axis=0))
+        depth = self.overlaps.depth(self.q, self.reach, NEAR_M)
+        nearer = depth.max(axis=0) - np.maximum(depth[0], depth[-1])
+        if not np.any((depth.max(axis=0) > -SEEN * self.overlaps.clear_m) & (nearer > LEAST_M)):
+            return None
+        pairs = np.flatnonzero(np.any(depth > -NEAR_M, axis=0))
         clear = self.overlaps.clear_m[pairs]
         ends = np.maximum(self.overlaps.depth(self.q[[0, -1]], self.reach, NEAR_M, pairs), -clear)
         along = np.linspace(0.0, 1.0, len(self.q))[:, None]
         leaving = 1.0 - minimum_jerk(along / TAPER)
         coming = 1.0 - minimum_jerk((1.0 - along) / TAPER)
         wanted = np.maximum((ends[0] + clear) * leaving, (ends[1] + clear) * coming) - clear
-        c, damping = np.zeros(n), 1e-3
+        c, damping = np.zeros(n), 30.0
         error = self._errors(c[None], pairs, wanted)[0]
         began = float(np.max(error))
-        if began <= LEAST_M:
-            return None
         for _ in range(STEPS):
             if np.max(error) <= LEFT * float(np.min(clear)):
                 break
@@ -247,7 +248,7 @@ class _Search:
             J = (values[1:] - values[0]).T / 1e-3
             lhs = J.T @ J + (WEIGHT_M**2 + damping * 1e-3) * np.eye(n)
             step = -np.linalg.solve(lhs, J.T @ values[0] + WEIGHT_M**2 * c)
-            step *= min(1.0, 0.35 / max(1e-9, float(np.max(np.abs(step)))))
+            step *= min(1.0, STRIDE_RAD / max(1e-9, float(np.max(np.abs(step)))))
             new = self._errors((c + step)[None], pairs, wanted)[0]
             if np.sum(new**2) < np.sum(error**2):
                 c, error, damping = c + step, new, damping / 3
@@ -262,5 +263,5 @@ class _Search:
         q = self.q + np.einsum("tvn,mn->mtv", self.basis, changes)
         q = np.clip(q, self.lower, self.upper)
         m, t, v = q.shape
-        depth = self.overlaps.depth(q.reshape(m * t, v), self.reach, NEAR_M, pairs)
+        depth = self.overlaps.depth(q.reshape(m * t, v), self.reach, float(np.max(-wanted)), pairs)
         return np.asarray(np.maximum(depth.reshape(m, t, -1) - wanted, 0.0).reshape(m, -1))

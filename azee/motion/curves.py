@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -41,18 +41,41 @@ def transition_s(a: Array, b: Array) -> float:
     return SHORTEST_S + (LONGEST_S - SHORTEST_S) * min(1.0, way)
 
 
+UNHURRIED_RAD_S2 = math.radians(2000.0)
+"""Largest acceleration of a limb that has time."""
+UNHURRIED_RAD_S3 = math.radians(30_000.0)
+"""Largest jerk of such a limb."""
+PEAK, PEAK_JERK = 10.0 / math.sqrt(3.0), 60.0
+"""Largest acceleration and jerk of a movement of minimum jerk, over a way and a time of one."""
+MOST_UNHURRIED_S = 0.7
+
+
+def unhurried_s(a: Array, b: Array) -> float:
+    """Length of the movement between a posture and rest with no haste in any coordinate."""
+    way = float(np.max(np.abs(a - b), initial=0.0))
+    calm = math.sqrt(PEAK * way / UNHURRIED_RAD_S2)
+    smooth = math.cbrt(PEAK_JERK * way / UNHURRIED_RAD_S3)
+    return float(np.clip(max(calm, smooth), SHORTEST_S, MOST_UNHURRIED_S))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class LimbKey:
     """A limb's posture at a time.
 
     time_s: on the score's time line. values: the limb's coordinates, radians. passing: on the way,
-    without stopping. held: something needs the limb from here until its next key.
+    without stopping. held: something needs the limb from here until its next key. rest_s: length of
+    the way from or to rest.
     """
 
     time_s: float
     values: Array
     passing: bool = False
     held: bool = False
+    rest_s: float | None = None
+
+    def way_s(self, rest: Array) -> float:
+        """Length of the way from or to rest."""
+        return transition_s(self.values, rest) if self.rest_s is None else self.rest_s
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,16 +123,16 @@ def track(keys: Sequence[LimbKey], rest: Array) -> LimbTrack:
     if not keys:
         return LimbTrack((), rest)
     first, last = keys[0], keys[-1]
-    whole = [LimbKey(first.time_s - transition_s(first.values, rest), rest)]
+    whole = [LimbKey(first.time_s - first.way_s(rest), rest)]
     for key, following in pairwise(keys):
         whole.append(key)
         gap = following.time_s - key.time_s
-        back, forth = transition_s(key.values, rest), transition_s(following.values, rest)
+        back, forth = key.way_s(rest), following.way_s(rest)
         if not key.held and gap > GO_ON_S and gap >= back + forth:
             whole.append(LimbKey(key.time_s + back, rest))
             whole.append(LimbKey(following.time_s - forth, rest))
     whole.append(last)
-    whole.append(LimbKey(last.time_s + transition_s(last.values, rest), rest))
+    whole.append(LimbKey(last.time_s + last.way_s(rest), rest))
     return LimbTrack(tuple(_stopping_before_rests(whole)), rest)
 
 
@@ -118,7 +141,7 @@ def _stopping_before_rests(keys: list[LimbKey]) -> list[LimbKey]:
     out = []
     for i, key in enumerate(keys):
         alone = i in (0, 1, len(keys) - 2, len(keys) - 1)
-        out.append(LimbKey(key.time_s, key.values, key.passing and not alone, key.held))
+        out.append(replace(key, passing=key.passing and not alone))
     return out
 
 

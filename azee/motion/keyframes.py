@@ -10,16 +10,20 @@ tells of it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from azee.motion.bound import Bound, BoundScore, limbs_asked
 from azee.motion.conflict import contradict
 from azee.motion.curves import transition_s
+from azee.motion.limbs import LINKS
 from azee.motion.poser import Poser, demands_of
 from azee.motion.posture import KeyPosture, Origin
+from azee.score.interval import Interval
 from azee_solver.binding import Binding
 
+PREPARE_S = Fraction(3, 20)
+"""Head and trunk get ready for what begins within this time."""
 SHORTEST_GIVING_WAY = Fraction(1, 12)
 
 
@@ -58,12 +62,45 @@ def solve_boundaries(
             continue
         opening = [b for b in bounds if b.requirement.starts_or_runs(time)]
         closing = [b for b in bounds if not b.requirement.starts_or_runs(time)]
-        posture = _shared(time, opening, closing, poser, binding)
+        posture = _prepared(time, opening, closing, score, poser)
+        if posture is None:
+            posture = _shared(time, opening, closing, poser, binding)
         if posture is None:
             postures += _apart(time, opening, closing, poser, giving)
         else:
             postures.append(poser.accept(posture))
     return Boundaries(tuple(postures), giving)
+
+
+def _prepared(
+    time: Fraction,
+    opening: Sequence[Bound],
+    closing: Sequence[Bound],
+    score: BoundScore,
+    poser: Poser,
+) -> KeyPosture | None:
+    """Return a posture in which head and trunk are already as blocks want them that begin soon.
+
+    A gaze that bends the head for a tenth of a second, until a raised chin asks for the opposite,
+    is met as well by eyes and neck. None if nothing begins soon on a head or trunk that is asked
+    for now, if that has only just been elsewhere, or if not all can be met together.
+    """
+    if poser.keying.flat or closing:
+        return None
+    soon = score.in_force.meeting(Interval(time, time + PREPARE_S))
+    asked = frozenset[str]().union(*(b.limbs for b in opening)) & {*LINKS}
+    ahead = [
+        b
+        for b in soon
+        if (start := b.requirement.interval.start) > time
+        and b.limb in LINKS
+        and b.limbs & asked
+        and poser.rest.since(b.limb, time) >= start - time
+    ]
+    if not ahead:
+        return None
+    posture = poser.solve(time, [*opening, *ahead])
+    return replace(posture, bounds=tuple(opening)) if posture.met else None
 
 
 def _shared(

@@ -9,8 +9,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.curves import LimbKey, LimbTrack, track
-from azee.motion.limbs import Limbs
+from azee.motion.curves import LimbKey, LimbTrack, track, unhurried_s
+from azee.motion.limbs import Limbs, channel_of_limb
 from azee.motion.posture import KeyPosture
 from azee.motion.spans import Spans
 from azee.motion.swerve import Swerve
@@ -54,10 +54,13 @@ def movement(
     holders: Spans[frozenset[str]],
     coordinates: Coordinates,
     limbs: Limbs,
+    *,
+    together: bool = True,
 ) -> Movement:
     """Join key postures, in order of time, limb by limb.
 
-    Args: holders: limbs that something needs, by when.
+    Args: holders: limbs that something needs, by when. together: an arm and its fingers come from
+        rest and go back in the same time; else each limb takes its own.
     """
     tracks = {}
     for limb, members in limbs.members.items():
@@ -69,9 +72,31 @@ def movement(
             )
             for a, b in pairwise(own)
         ]
+        ways = [_way_s(p, limb, coordinates, limbs) if together else None for p in own]
         keys = [
-            LimbKey(float(p.time), p.coordinates[members], limb in p.passing, h)
-            for p, h in zip(own, [*held, False], strict=False)
+            LimbKey(float(p.time), p.coordinates[members], limb in p.passing, h, way)
+            for p, h, way in zip(own, [*held, False], ways, strict=False)
         ]
         tracks[limb] = track(keys, coordinates.idle[members])
     return Movement(coordinates, limbs, tracks)
+
+
+def _way_s(posture: KeyPosture, limb: str, coordinates: Coordinates, limbs: Limbs) -> float:
+    """Time from or to rest that a limb takes together with what moves with it.
+
+    Fingers form a handshape while the arm brings the hand there.
+    """
+    side = channel_of_limb(limb) == "hands" and limb[-2:]
+    q, idle = posture.coordinates, coordinates.idle
+    found = [
+        unhurried_s(q[members], idle[members])
+        for other, members in limbs.members.items()
+        if other == limb
+        or (
+            side
+            and channel_of_limb(other) == "hands"
+            and other[-2:] == side
+            and other in posture.limbs
+        )
+    ]
+    return max(found)

@@ -72,7 +72,9 @@ class Refinement:
         """Return the movement through key postures."""
         ordered = sorted(postures, key=lambda p: p.time)
         coordinates = self.gauge.evaluator.rig.coordinates
-        return movement(ordered, self.holders, coordinates, self.limbs)
+        return movement(
+            ordered, self.holders, coordinates, self.limbs, together=not self.keying.flat
+        )
 
     def solve(
         self,
@@ -114,8 +116,14 @@ class Refinement:
         return out
 
     def refined(self, postures: Iterable[KeyPosture], frame_times: Sequence[Fraction]) -> Refined:
-        """Return key postures with those added that the frames need."""
+        """Return key postures with those added that the frames need.
+
+        A flattened score has no others than its boundaries and the samples of its paths.
+        """
         out = sorted(postures, key=lambda p: p.time)
+        if self.keying.flat:
+            current, at = self._measured(out, frame_times)
+            return Refined(tuple(out), current, at)
         near: Sequence[Fraction] | None = None  # frames to look at; none for all
         tried: Counter[Fraction] = Counter()
         for _ in range(ROUNDS):

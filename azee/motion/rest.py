@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -50,6 +51,11 @@ class Rest:
         for b in posture.bounds:
             for limb in b.limbs:
                 self._claimed[limb] = posture.time
+
+    def since(self, limb: str, time: Fraction) -> float:
+        """How long ago a limb was claimed last; without end if it never was."""
+        claimed = self._claimed.get(limb)
+        return math.inf if claimed is None else float(time - claimed)
 
     def applied(self, current: Array, last: KeyPosture | None, time: Fraction) -> Array:
         """Return a posture with the limbs at idle that have come to rest by an instant, (V,).

@@ -21,6 +21,7 @@ from azee.motion.limbs import Limbs
 from azee.motion.movement import Movement
 from azee.motion.plan import plan
 from azee.motion.posture import PostureSolver, Search
+from azee.motion.quality import block_times, peaks, penetrations
 from azee.motion.report import MotionReport, constraint_results, limit_excess
 from azee.motion.tracks import Track, tracks
 from azee.motion.trill import laid_on, oscillation
@@ -119,6 +120,9 @@ def animate(
         max_excess_rad=excess,
         excess_joint=joint,
         postures=solved.postures,
+        blocks=tuple(block_times(bound.all, solved.gauge.giving_way)),
+        peaks=peaks(q, float(fps), rig.coordinates.names, lead_s),
+        look=lambda: penetrations(rig, q, frames, solved.clearing),
     )
     return Animation(
         clip,

@@ -30,7 +30,8 @@ class Overlaps:
     """Overlaps of the pairs of capsules of one body that must stay apart.
 
     pairs: (P, 2). nodes: (P, 2) the nodes that carry them. clear_m: (P,) how far apart a way that
-    is free to choose keeps them: capsules do not hold all of the skin.
+    is free to choose keeps them: capsules do not hold all of the skin. same_hand: (P,) which are
+    fingers of one hand.
     """
 
     def __init__(self, evaluator: Evaluator) -> None:
@@ -45,6 +46,7 @@ class Overlaps:
         others = np.ones(len(self._rig.coordinates), dtype=np.bool_)
         others[hands] = False
         arms = (self._anatomy.relative(*self.nodes.T) & others).any(axis=1)
+        self.same_hand: NDArray[np.bool_] = np.logical_not(arms)
         self.clear_m: Array = np.where(arms, CLEAR_M, FINGERS_CLEAR_M)
         self._reach = lru_cache(maxsize=64)(self._reach_of)
 
@@ -57,6 +59,18 @@ class Overlaps:
         """Names of a pair's capsules."""
         i, j = self.pairs[pair]
         return self._rig.capsules.names[i], self._rig.capsules.names[j]
+
+    def regions(self, pair: int) -> tuple[str, str]:
+        """Parts of the body that a pair belongs to: trunk, head, arm_L, arm_R."""
+        first, second = (self._region(int(node)) for node in self.nodes[pair])
+        return first, second
+
+    def _region(self, node: int) -> str:
+        for side in "LR":
+            if self._anatomy.is_above(self._rig.bones[f"arm_{side}"].node, node):
+                return f"arm_{side}"
+        head = self._anatomy.is_above(self._rig.bones["neck"].origin_node, node)
+        return "head" if head else "trunk"
 
     def reach(self, constraints: Iterable[Constraint]) -> Array:
         """How near the axes of pairs may come, (P,), where constraints mean some to touch."""

@@ -39,13 +39,15 @@ from azee_solver.evaluate import Evaluator
 class Plan:
     """Key postures in order of time, the movement through them, and what measures it.
 
-    instants: the movement at the frames inside the score and at the keys.
+    instants: the movement at the frames inside the score and at the keys. clearing: what keeps
+    its ways clear of the body.
     """
 
     postures: tuple[KeyPosture, ...]
     movement: Movement
     gauge: Gauge
     instants: Instants
+    clearing: Clearing
 
 
 def plan(
@@ -77,12 +79,12 @@ def plan(
     work.steer(later)
     work.follow([b for b in score.postures if b.dynamic])
     done = work.refinement.refined(work.postures, frame_times)
-    if keying.flat:
-        return Plan(done.postures, done.movement, work.refinement.gauge, done.instants)
     clearing = Clearing(evaluator, score, holders, Overlaps(evaluator))
-    clear = clearing.cleared(done.movement)
-    at = instants(clear, done.instants.times, evaluator)
-    return Plan(done.postures, clear, work.refinement.gauge, at)
+    clear, at = done.movement, done.instants
+    if not keying.flat:
+        clear = clearing.cleared(clear)
+        at = instants(clear, at.times, evaluator)
+    return Plan(done.postures, clear, work.refinement.gauge, at, clearing)
 
 
 @dataclass(slots=True, eq=False)

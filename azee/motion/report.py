@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from azee.motion.bound import Bound, BoundScore
 from azee.motion.gauge import TOLERANCE
 from azee.motion.plan import Plan
+from azee.motion.quality import CoordinatePeaks, Penetration
 from azee_rig.coordinates import Coordinates
 from azee_solver import describe
 from azee_solver.constraint import Constraint, Trill
@@ -66,9 +68,13 @@ class ConstraintResult:
         }
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class MotionReport:
-    """The report of one animation."""
+    """The report of one animation.
+
+    blocks: their times, and until when each holds what it asks. peaks: of the coordinates that
+    move. look: finds what enters what.
+    """
 
     rig: str
     fps: float
@@ -80,6 +86,14 @@ class MotionReport:
     max_excess_rad: float
     excess_joint: str | None
     postures: tuple[KeyPosture, ...]
+    blocks: tuple[Mapping[str, object], ...]
+    peaks: tuple[CoordinatePeaks, ...]
+    look: Callable[[], tuple[Penetration, ...]]
+
+    @cached_property
+    def clip_penetration(self) -> tuple[Penetration, ...]:
+        """What enters what in any frame; looked for when asked, for it takes a while."""
+        return self.look()
 
     @property
     def met(self) -> bool:
@@ -118,6 +132,9 @@ class MotionReport:
             "constraints": [c.as_json() for c in self.constraints],
             "limits": {"max_excess_rad": self.max_excess_rad, "joint": self.excess_joint},
             "penetration": [row for p in self.postures for row in _penetration(p)],
+            "clip_penetration": [p.as_json() for p in self.clip_penetration],
+            "blocks": [{**row} for row in self.blocks],
+            "coordinates": [p.as_json() for p in self.peaks],
         }
 
 

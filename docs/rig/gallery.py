@@ -18,9 +18,18 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from azee.export.atlas import bone_sheet, morph_sheet
-from azee.export.picture import Camera, camera, contact_sheet, picture, render
+from azee.export.picture import (
+    Camera,
+    camera,
+    contact_sheet,
+    from_direction,
+    picture,
+    render,
+)
+from azee_rig.build.plain import plain
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
+from azee_rig.skin import skin
 
 Floats = NDArray[np.float64]
 POSTURES = json.loads((Path(__file__).parent / "postures.json").read_text(encoding="utf-8"))
@@ -89,23 +98,47 @@ def face_sheet(rig: Rig) -> Image.Image:
     return contact_sheet(shown[:18], 6)
 
 
+def shoulder_sheet(rig: Rig) -> Image.Image:
+    """Show raised arms skinned plainly, without helper joints and rhythm, and as they ship."""
+    raised = [
+        (f"{motion} {angle}", {**POSTURES["raised"], f"arm_{{S}}.{motion}": angle})
+        for motion, angles in (("abduction", (90, 120, 150)), ("flexion", (90, 125, 150)))
+        for angle in angles
+    ]
+    rigid, mesh = plain(rig)
+    target = rig.landmarks.shoulder_middle
+    shown = []
+    for view, towards_eye in (("front", (0.0, 0.05, 1.0)), ("back", (-0.3, 0.1, -1.0))):
+        eye = from_direction(target, np.array(towards_eye), 0.24)
+        for when, body, its_mesh in (("plain", rigid, mesh), ("ours", rig, rig.mesh)):
+            for name, layer in raised:
+                vertices = skin(its_mesh, body.skeleton, body.pose(posture(rig, layer)))
+                picture_of = render(vertices, its_mesh, eye, (250, 220))
+                shown.append((f"{name}, {view}, {when}", picture_of))
+    return contact_sheet(shown, 6)
+
+
 def main(folder: Path) -> None:
     """Write all sheets."""
     rig = load_rig()
     for name, sheet in (
         ("body", body_sheet),
+        ("shoulders", shoulder_sheet),
         ("hands", hand_sheet),
         ("faces", face_sheet),
         ("morphs", morph_sheet),
         ("axes", bone_sheet),
     ):
-        _small(sheet(rig)).save(folder / f"{name}.png", optimize=True)
+        _small(sheet(rig), 128 if name == "morphs" else 256).save(
+            folder / f"{name}.png", optimize=True
+        )
 
 
-def _small(image: Image.Image) -> Image.Image:
-    """256 colours with dithering: a third of the bytes, and lips stay red."""
-    palette = image.quantize(256, method=Image.Quantize.MAXCOVERAGE, kmeans=1)
-    return image.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG)
+def _small(image: Image.Image, colours: int) -> Image.Image:
+    """Few colours: a third of the bytes, and lips stay red. 256 are dithered, 128 are not."""
+    palette = image.quantize(colours, method=Image.Quantize.MAXCOVERAGE, kmeans=1)
+    smooth = Image.Dither.FLOYDSTEINBERG if colours == 256 else Image.Dither.NONE
+    return image.quantize(palette=palette, dither=smooth)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from enum import Enum
 from functools import lru_cache
 
@@ -51,6 +51,8 @@ def part_of(bone: str) -> Part:
 class Anatomy:
     """Structure of a chain, for asking what a constraint can depend on.
 
+    followers: last joints of fingers, and the joint before, which they follow: one tendon bends
+    both.
     paths: (B, B), whether the second node is the first or above it. owns: (B, V), whether a
     coordinate turns a node against its parent. moves: (B, V), whether it changes its frame.
     """
@@ -66,6 +68,7 @@ class Anatomy:
                 self.paths[b] |= self.paths[parent]
         self.moves: Flags = self.paths @ self.owns
         self.parts = tuple(part_of(name) for name in self.names)
+        self.followers = _followers(self.names)
         self._of = {p: frozenset(v for v, q in enumerate(self.parts) if q is p) for p in Part}
 
     def of(self, *parts: Part) -> frozenset[int]:
@@ -110,6 +113,20 @@ class Anatomy:
         """Deepest node above all the given ones, or −1."""
         shared = np.flatnonzero(np.logical_and.reduce([self.paths[n] for n in nodes]))
         return int(shared[-1]) if len(shared) else -1
+
+
+def _followers(names: Sequence[str]) -> dict[int, int]:
+    index = {name: v for v, name in enumerate(names)}
+    pairs = {
+        f"{finger}_{side}_3.flexion": f"{finger}_{side}_2.flexion"
+        for finger in ("index", "middle", "ring", "little")
+        for side in "LR"
+    }
+    return {
+        index[last]: index[before]
+        for last, before in pairs.items()
+        if last in index and before in index
+    }
 
 
 def _set(flags: Flags) -> frozenset[int]:

@@ -41,10 +41,14 @@ EYE_STIFFNESS, NECK_STIFFNESS = 0.1, 3.0
 EYE_COMFORT = 300.0
 """Keeps led eyes in the middle of their range, so that the head takes the rest."""
 
+FOLLOWING_STIFFNESS = 4.0
+"""Of last finger joints, in following those before them."""
 GAIN = 0.8
 """A descent has gained something if it brings the cost below this part of the best."""
 DEEP = 2.0
 """Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
+FIRM = 4.0
+"""By what bodies push harder at the end, where steps are exact: soft ones are found around."""
 FAR = 30.0
 """Beyond so many tolerances a miss pulls no harder, once it is known that it must miss."""
 POLISH, POLISH_EASE, POLISH_OVERLAP = 5.0, 0.01, 0.3
@@ -241,7 +245,8 @@ class _Attempt:
         """
         options, program = self.body.options, self.program
         weights = program.section(kernels.ROW_NUMBERS).reshape(-1, 2)
-        kept = weights.copy()
+        overlap = program.section(kernels.OVERLAP_WEIGHT)
+        kept, soft = weights.copy(), overlap.copy()
         x = result.q[program.free]
         if result.lost():
             for i in result.lost():
@@ -250,9 +255,13 @@ class _Attempt:
             x = program.descend(
                 x, max_evaluations=options.max_evaluations, tolerance=options.finish_tolerance
             )
+        overlap *= FIRM
         x = program.polish(x, rounds=options.finish_rounds, tolerance=options.finish_tolerance)
-        weights[:] = kept
-        return min(self._measure(x), result, key=lambda r: _merit(r, options))
+        weights[:], overlap[:] = kept, soft
+        finished = self._measure(x)
+        if not finished.lost() and _excess(finished, options) <= _excess(result, options):
+            return finished
+        return min(finished, result, key=lambda r: _merit(r, options))
 
     def _polished(self, result: Result) -> Result:
         """Descend once more without the price of ease and distance, if a small miss may be that."""
@@ -310,13 +319,17 @@ class _Attempt:
             for v in anatomy_.of(Part.HEAD):
                 if anatomy_.names[v].startswith("neck"):
                     stiffness[v] = NECK_STIFFNESS
+        follows = {} if options.posture == 0 else anatomy_.followers
         keep = options.posture * stiffness**2
+        keep[list(follows)] *= FOLLOWING_STIFFNESS
         for v, angle in self.body.presets.items():
             if v in free:
                 reference[v] = angle
                 keep[v] = options.tolerance.angle_rad**-2
                 comfort[v] = 0.0
-        return Cost(reference, keep, comfort, options.overlap)
+        loose = {v: leader for v, leader in follows.items() if v not in self.body.presets}
+        comfort[list(loose)] = 0.0
+        return Cost(reference, keep, comfort, options.overlap, loose)
 
     def _level(self, tape: Tape, free: frozenset[int]) -> list[Row]:
         """Rows that keep the head as it was while the trunk moves under it."""

@@ -2,11 +2,12 @@
 
     f(x) = Σ_k w_k e_k²  +  Σ_v λ_v (q_v − ref_v)²  +  Σ_v κ_v max(0, |u_v| − 0.8)²  +  μ Σ overlap²
 
-with u_v the place of q_v in its range, −1 to 1. A residual e_k compares two entries a and b of a
-tape: a − b for places and parallels, |a − b| − d for places at a distance, a · b for
-perpendiculars. The gradient costs one backward sweep: every pull on a point or direction becomes a
-force and a moment about the world's origin on its node, both are added up towards the root, and a
-coordinate that turns about axis u through o feels u · (M − o × F).
+with u_v the place of q_v in its range, −1 to 1. Where a coordinate follows another, as a finger's
+last joint follows the one before, ref_v is 2/3 of the other's angle. A residual e_k compares two
+entries a and b of a tape: a − b for places and parallels, |a − b| − d for places at a distance,
+a · b for perpendiculars. The gradient costs one backward sweep: every pull on a point or direction
+becomes a force and a moment about the world's origin on its node, both are added up towards the
+root, and a coordinate that turns about axis u through o feels u · (M − o × F).
 
 `evaluate` is what NLopt calls, through its C interface or through Python: the same machine code.
 All that a problem is lies in one block of eight-byte words that `program` lays out, read as
@@ -49,6 +50,7 @@ MEET, AT_DISTANCE, PERPENDICULAR = range(3)
     ACTIVE,
     FREE,
     COLUMN,
+    FOLLOWED,
     CODES,
     ROWS,
     CAPSULE_NODE,
@@ -87,10 +89,13 @@ MEET, AT_DISTANCE, PERPENDICULAR = range(3)
     FACTOR,
     VECTORS,
     SECTIONS_END,
-) = range(48)
+) = range(49)
 
 COMFORTABLE = 0.8
 """Part of a coordinate's range, about its middle, that costs nothing."""
+
+FOLLOWING = 2.0 / 3.0
+"""Angle of a finger's last joint over that of the one before (Rijpkema and Girard 1991)."""
 
 SHORT = 1e-12
 
@@ -475,14 +480,25 @@ def _value(x, gradient, wanted, ints, reals):  # type: ignore[no-untyped-def]
         )
 
     posture = _part(reals, ints, POSTURE).reshape((free.shape[0], 5))
+    followed = _part(ints, ints, FOLLOWED)
     for k in range(free.shape[0]):
         reference, keep, middle, half, comfort = posture[k]
-        away = x[k] - reference
+        away = _away(x, k, followed[k], reference)
         beyond = _beyond((x[k] - middle) / half)
         f += keep * away * away + comfort * beyond * beyond
         if wanted:
             gradient[k] = pull_on_q[free[k]] + 2.0 * keep * away + 2.0 * comfort * beyond / half
+    if wanted:
+        for k in range(free.shape[0]):
+            if followed[k] >= 0:
+                away = _away(x, k, followed[k], posture[k, 0])
+                gradient[followed[k]] -= 2.0 * FOLLOWING * posture[k, 1] * away
     return f, contacts
+
+
+@njit(error_model="numpy")
+def _away(x, k, leader, reference):  # type: ignore[no-untyped-def]
+    return x[k] - (FOLLOWING * x[leader] if leader >= 0 else reference)
 
 
 @njit(error_model="numpy")
@@ -649,12 +665,17 @@ def _model(x, contacts, row, gradient, hessian, ints, reals):  # type: ignore[no
         _lever(int(contact[0]), contact[2:5], contact[8:11], -1.0, row, ints, reals)
         _lever(int(contact[1]), contact[5:8], contact[8:11], 1.0, row, ints, reals)
         _add_square(row, contact[11], overlap_weight, hessian, gradient)
-    posture = _part(reals, ints, POSTURE)
+    posture, followed = _part(reals, ints, POSTURE), _part(ints, ints, FOLLOWED)
     for k in range(n):
         reference, keep = posture[5 * k], posture[5 * k + 1]
         middle, half, comfort = posture[5 * k + 2], posture[5 * k + 3], posture[5 * k + 4]
         beyond = _beyond((x[k] - middle) / half)
-        gradient[k] += keep * (x[k] - reference) + comfort * beyond / half
+        away, leader = _away(x, k, followed[k], reference), followed[k]
+        gradient[k] += keep * away + comfort * beyond / half
+        if leader >= 0:
+            gradient[leader] -= FOLLOWING * keep * away
+            hessian[leader, leader] += FOLLOWING**2 * keep
+            hessian[min(k, leader), max(k, leader)] -= FOLLOWING * keep
         hessian[k, k] += keep + (comfort / half**2 if beyond != 0.0 else 0.0)
 
 

@@ -86,6 +86,11 @@ class ProblemBuilder:
 
     @cached_property
     def _claimed(self) -> frozenset[int]:
+        """Finger coordinates that orientations and morphs speak of, and what follows those."""
+        return self._asked | self._followers(self._asked)
+
+    @cached_property
+    def _asked(self) -> frozenset[int]:
         """Finger coordinates that orientations and morphs speak of."""
         constraints = [demand.constraint for demand in self.demands]
         presets = frozenset(self.binding.presets(constraints))
@@ -164,6 +169,7 @@ class ProblemBuilder:
             return movers & self.anatomy.of(Part.EYES, Part.HEAD)
         if reach is Reach.ALL:
             step = affected | self._step(i, Reach.TRUNK)
+            step |= self._followers(step)
             return step | self._idle_arms if step & self.anatomy.of(Part.TRUNK) else step
         part = self._part(i)
         parts = {part}
@@ -176,9 +182,15 @@ class ProblemBuilder:
         if reach >= Reach.TRUNK:
             parts.add(Part.TRUNK)
         free = movers & self.anatomy.of(*parts) or affected
+        free |= self._followers(free)
         if reach >= Reach.FINGERS and isinstance(constraint, Place):
             free |= self._idle_fingers(i)
         return free
+
+    def _followers(self, free: frozenset[int]) -> frozenset[int]:
+        """Last finger joints that follow one that moves, where nothing else fixes them."""
+        led = {v for v, leader in self.anatomy.followers.items() if leader in free}
+        return frozenset(led) - self._asked
 
     def _idle_fingers(self, i: int) -> frozenset[int]:
         """Fingers that nothing asks anything of, on hands that a placement brings near things.

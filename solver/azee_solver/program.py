@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -56,12 +56,16 @@ class Collisions:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cost:
-    """What a posture costs, per coordinate of the rig: (V,) each; see the formula in `kernels`."""
+    """What a posture costs, per coordinate of the rig: (V,) each; see the formula in `kernels`.
+
+    follows: coordinates, and the one that each follows instead of its reference.
+    """
 
     reference: Array
     keep: Array
     comfort: Array
     overlap: float
+    follows: Mapping[int, int] = field(default_factory=dict)
 
 
 class Program:
@@ -104,6 +108,11 @@ class Program:
         posture[:, 4] = cost.comfort[self.free]
         column = np.full(len(coordinates), -1)
         column[self.free] = np.arange(len(self.free))
+        followed = np.full(len(self.free), -1)
+        for n, v in enumerate(self.free.tolist()):
+            if v in cost.follows:
+                followed[n] = column[cost.follows[v]]
+                posture[n, 0] = k.FOLLOWING * q[cost.follows[v]]
         moving = tape.moving if all_frames else _needed(rig, tape.moving, codes, node, phase)
         given: dict[int, Ints | Array] = {
             k.COUNT: np.zeros(1, dtype=np.int64),
@@ -115,6 +124,7 @@ class Program:
             k.ACTIVE: np.flatnonzero(moving),
             k.FREE: self.free,
             k.COLUMN: column,
+            k.FOLLOWED: followed,
             k.CODES: codes,
             k.ROWS: np.array([(r.kind, r.a, r.b) for r in self.rows], dtype=np.int64),
             k.CAPSULE_NODE: node,

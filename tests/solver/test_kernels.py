@@ -129,6 +129,7 @@ class Case:
                 cost.get("keep", 0.0) * every,
                 cost.get("comfort", 0.0) * every,
                 cost.get("overlap", 0.0),
+                {1: 0, 7: 3} if cost.get("keep") else {},
             ),
         )
 

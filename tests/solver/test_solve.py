@@ -223,6 +223,20 @@ def test_fixed_coordinates_keep_their_value() -> None:
     np.testing.assert_array_equal(report.coordinates[sorted(fixed)], IDLE[sorted(fixed)])
 
 
+def test_the_last_joint_of_a_finger_follows_the_one_before() -> None:
+    """Two thirds of its angle (Rijpkema and Girard 1991), where nothing else fixes the finger."""
+    for degrees in (0.0, 30.0, 60.0):
+        turn = Rotated(
+            Dir(Bone("index", S, 1)), Cross(Nrm(PALM), Dir(PALM)), math.radians(-degrees)
+        )
+        report = run(along(DIR, Bone("index", S, 2), turn))
+        bent = value(report, "index_R_2.flexion")
+        assert report.met
+        assert value(report, "index_R_3.flexion") == pytest.approx(2 / 3 * bent, abs=0.2)
+    held = run(Morph("index_hook", S, 0.5), along(DIR, Bone("index", S, 3), Dir(PALM)))
+    assert value(held, "index_R_3.flexion") != pytest.approx(30, abs=5)
+
+
 # What is not met ------------------------------------------------------------------------------
 
 

@@ -1,0 +1,208 @@
+"""Whether a small change of a target gives a small change of the posture.
+
+`python -m benchmarks.continuity [--sweeps N] [-o FILE.json]`. Targets run through the signing space
+in steps of a millimetre, along straight lines drawn with fixed seeds: a fingertip, a palm, a palm
+that also faces forwards. Every posture starts from the one before and is drawn to idle, as along a
+controlled movement. What is measured is the largest change of any coordinate from one step to the
+next: up to 2° inside 98 % of reach, 4° beyond. Steps that change more are printed, with what
+changed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.load import load_rig
+from azee_rig.rig import Rig
+from azee_solver.constraint import BoneAxis, Constraint, Orient, Place, Relation
+from azee_solver.demand import Demand
+from azee_solver.geometry import Bone, Side, Site, Vec, WorldPoint
+from azee_solver.options import SolveOptions
+from azee_solver.report import SolveReport
+from azee_solver.solve import solve
+
+Array = NDArray[np.float64]
+
+STEP_M = 1e-3
+LENGTH_M = 0.25
+WITHIN = 0.98
+ALLOWED_DEG = {True: 2.0, False: 4.0}
+"""Inside 98 % of reach, and beyond."""
+SEED = 7
+SPACE_M = np.array([[-0.45, -0.45, 0.1], [0.2, 0.35, 0.65]])
+"""Where lines begin and end, from the middle of the shoulders."""
+FORWARD = Vec(0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Jump:
+    """A step with a greater change than is allowed.
+
+    reach: distance of the target from the shoulder over that of the stretched arm. moved: parts
+    that the solver took into use before and after.
+    """
+
+    kind: str
+    sweep: int
+    step: int
+    reach: float
+    coordinate: str
+    change_deg: float
+    met: tuple[bool, bool]
+    moved: tuple[tuple[str, ...], tuple[str, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """Result of the sweeps of one kind: steps, of those beyond 98 % of reach, largest changes."""
+
+    kind: str
+    steps: int
+    beyond: int
+    met: int
+    median_deg: float
+    largest_deg: float
+    largest_beyond_deg: float
+    jumps: int
+
+
+def kinds(target: WorldPoint) -> dict[str, list[Constraint]]:
+    """Return what is asked of the strong hand, by name."""
+    strong = Side.STRONG
+    return {
+        "fingertip": [Place(Site("I_TIP", strong), target)],
+        "palm": [Place(Site("PA", strong), target)],
+        "palm, facing": [
+            Place(Site("PA", strong), target),
+            Orient(BoneAxis.NRM, Bone("palm", strong), Relation.ALONG, FORWARD),
+        ],
+    }
+
+
+def stretched_m(rig: Rig, site: str) -> float:
+    """Distance from the shoulder to a site of the hand with everything straight."""
+    frames = rig.chain.frames(np.clip(0.0 * rig.coordinates.idle, *_limits(rig)))
+    found = rig.sites[site]
+    at = frames.positions[found.node] + frames.rotations[found.node] @ found.position
+    return float(np.linalg.norm(at - frames.positions[rig.bones["arm_R"].origin_node]))
+
+
+def _limits(rig: Rig) -> tuple[Array, Array]:
+    return rig.coordinates.lower, rig.coordinates.upper
+
+
+def line(rig: Rig, sweep: int) -> Iterator[Array]:
+    """Yield the targets of a sweep (3,), a millimetre apart."""
+    rng = np.random.default_rng((SEED, sweep))
+    start, other = rig.landmarks.shoulder_middle + rng.uniform(*SPACE_M, size=(2, 3))
+    way = (other - start) / np.linalg.norm(other - start)
+    for k in range(int(LENGTH_M / STEP_M) + 1):
+        yield start + k * STEP_M * way
+
+
+def swept(rig: Rig, kind: str, sweep: int) -> Iterator[tuple[float, SolveReport]]:
+    """Yield how far out a target is, as a part of reach, and its solution."""
+    idle = rig.coordinates.idle
+    frames = rig.chain.frames(idle)
+    shoulder = frames.positions[rig.bones["arm_R"].origin_node]
+    reach = stretched_m(rig, "I_TIP_R" if kind == "fingertip" else "PA_R")
+    options = SolveOptions(explain=False)
+    start = idle
+    for target in line(rig, sweep):
+        asked = kinds(WorldPoint(*target.tolist()))[kind]
+        demands = [Demand(c, rank=i) for i, c in enumerate(asked)]
+        report = solve(
+            rig, demands, dominant=Side.RIGHT, start=start, reference=start, options=options
+        )
+        start = report.coordinates
+        yield float(np.linalg.norm(target - shoulder)) / reach, report
+
+
+def measure(rig: Rig, kind: str, sweeps: int) -> tuple[Row, list[Jump]]:
+    """Run the sweeps of a kind."""
+    jumps: list[Jump] = []
+    changes: dict[bool, list[float]] = {True: [], False: []}
+    met = 0
+    for sweep in range(sweeps):
+        last: SolveReport | None = None
+        for step, (reach, report) in enumerate(swept(rig, kind, sweep)):
+            met += report.met
+            if last is not None:
+                change = np.degrees(np.abs(report.coordinates - last.coordinates))
+                v, inside = int(change.argmax()), reach < WITHIN
+                changes[inside].append(float(change[v]))
+                if change[v] > ALLOWED_DEG[inside]:
+                    jumps.append(
+                        Jump(
+                            kind,
+                            sweep,
+                            step,
+                            round(reach, 3),
+                            rig.coordinates.names[v],
+                            round(float(change[v]), 2),
+                            (last.met, report.met),
+                            (last.problems[0].moved, report.problems[0].moved),
+                        )
+                    )
+            last = report
+    every = changes[True] + changes[False]
+    row = Row(
+        kind,
+        len(every),
+        len(changes[False]),
+        met,
+        round(float(np.median(every)), 3),
+        round(max(changes[True], default=0.0), 2),
+        round(max(changes[False], default=0.0), 2),
+        len(jumps),
+    )
+    return row, jumps
+
+
+def main() -> int:
+    """Print a row per kind and every jump; 1 if there is one."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--sweeps", type=int, default=12)
+    parser.add_argument("-o", "--output", type=Path, help="rows and jumps, as JSON")
+    arguments = parser.parse_args()
+    rig = load_rig()
+    found = [measure(rig, kind, arguments.sweeps) for kind in kinds(WorldPoint(0.0, 0.0, 0.0))]
+    print(
+        f"{'':<16}{'steps':>7}{'beyond':>8}{'met':>7}{'median':>9}{'inside':>9}{'beyond':>9}  jumps"
+    )
+    for row, _ in found:
+        print(
+            f"{row.kind:<16}{row.steps:>7}{row.beyond:>8}{row.met:>7}{row.median_deg:>8.2f}°"
+            f"{row.largest_deg:>8.2f}°{row.largest_beyond_deg:>8.2f}°{row.jumps:>7}"
+        )
+    jumps = [jump for _, some in found for jump in some]
+    for j in jumps:
+        taken = [part for part in j.moved[1] if part not in j.moved[0]]
+        left = [part for part in j.moved[0] if part not in j.moved[1]]
+        why = (
+            f"takes {' and '.join(taken)}"
+            if taken
+            else f"leaves {' and '.join(left)}"
+            if left
+            else ""
+        )
+        print(
+            f"  {j.kind}, sweep {j.sweep}, step {j.step}, at {j.reach:.3f} of reach: "
+            f"{j.coordinate} by {j.change_deg}° {j.met} {why}"
+        )
+    if arguments.output:
+        content = {"rows": [asdict(r) for r, _ in found], "jumps": [asdict(j) for j in jumps]}
+        arguments.output.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+    return int(bool(jumps))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -47,6 +47,8 @@ class Clip:
 
     def __post_init__(self) -> None:
         frames = len(self.times)
+        if (np.ndim(self.times), np.ndim(self.coordinates)) != (1, 2):
+            raise ValueError("a clip has one time and one row of coordinates a frame")
         if not frames or np.any(np.diff(self.times) <= 0.0):
             raise ValueError("times do not increase")
         if len(self.coordinates) != frames or self.unit_weights.shape != (frames, len(self.units)):

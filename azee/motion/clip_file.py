@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import struct
 import zipfile
 import zlib
@@ -95,12 +96,20 @@ def read_clip(path: str | Path, rig: Rig) -> Clip:
             np.clip(q, rig.coordinates.lower, rig.coordinates.upper),
             tuple(header["units"]),
             arrays["unit_weights"],
-            tuple(Label(tuple(p), float(a), float(b)) for p, a, b in header["labels"]),
+            tuple(_label(*stored) for stored in header["labels"]),
         )
     except ClipFileError:
         raise
     except (KeyError, TypeError, ValueError, IndexError) as error:
         raise ClipFileError(f"`{path}` is a damaged clip") from error
+
+
+def _label(path: list[str], start_s: float, end_s: float) -> Label:
+    """Return a stored label. Raises: ValueError: it is none."""
+    named = path and all(isinstance(name, str) for name in path)
+    if not (named and math.isfinite(start_s) and start_s <= end_s < math.inf):
+        raise ValueError("a label without a name or a time")
+    return Label(tuple(path), float(start_s), float(end_s))
 
 
 def rig_of(path: str | Path) -> str:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import io
+import json
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 import pytest
@@ -153,6 +155,36 @@ def test_what_is_no_clip_is_refused_in_one_sentence(tmp_path: Path) -> None:
         path.write_bytes(data)
         with pytest.raises(ClipFileError, match=r"`.*x\.npz`"):
             read_clip(path, RIG)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"labels": [[["a"], float("nan"), 1.0]]},
+        {"labels": [[[], 0.0, 1.0]]},
+        {"labels": [["a"]]},
+        {"units": ["jawOpen", "no such unit"]},
+        {"coordinates": ["arm_X.flexion"]},
+        {"version": 9},
+        {"times": np.zeros((3, 1))},
+        {"times": np.array([0.0, 0.0, 1.0])},
+        {"times": np.array([0.0, np.nan, 1.0])},
+    ],
+    ids=str,
+)
+def test_a_clip_that_makes_no_sense_is_refused(change: dict[str, Any], tmp_path: Path) -> None:
+    path = tmp_path / "x.npz"
+    with path.open("wb") as file:
+        clip = Clip(np.arange(3.0), np.tile(C.idle, (3, 1)), ("jawOpen",), np.zeros((3, 1)))
+        write_clip(clip, RIG, file)
+    arrays = dict(np.load(path))
+    header = json.loads(arrays["header"].tobytes())
+    header |= {key: value for key, value in change.items() if not isinstance(value, np.ndarray)}
+    arrays |= {key: value for key, value in change.items() if isinstance(value, np.ndarray)}
+    arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
+    np.savez(path, **arrays)
+    with pytest.raises(ClipFileError, match=r"`.*x\.npz`"):
+        read_clip(path, RIG)
 
 
 def test_coordinates_come_back_from_the_joints(signer: Rig) -> None:

@@ -59,6 +59,7 @@ pictures: $(READY) ## draw the pictures of the examples' folders and of the tuto
 	@$(RUN) examples/build.py --out out/examples --keep-pictures
 	@$(RUN) docs/language/pictures.py
 	@$(RUN) docs/film_pictures.py
+	@$(RUN) docs/repl_pictures.py
 
 wheel-test: $(READY) node ## the fast tests against the built wheel, outside the checkout
 	@bash tests/project/wheel.sh $(RUN)

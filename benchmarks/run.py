@@ -1,7 +1,7 @@
 """The benchmarks, all or those that are named: `make bench`.
 
-`python benchmarks/run.py [waits] [language] [motion] [solver OPTIONS…]`. What follows `solver` goes
-to it; `python benchmarks/run.py solver --help` lists it.
+`python benchmarks/run.py [waits] [language] [motion] [prompt] [solver OPTIONS…]`. What follows
+`solver` goes to it; `python benchmarks/run.py solver --help` lists it.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ MODULES = {
     "waits": "benchmarks.waits",
     "language": "benchmarks.language_growth",
     "motion": "benchmarks.motion_length",
+    "prompt": "benchmarks.prompt",
     "solver": "benchmarks.solver_bench",
 }
 

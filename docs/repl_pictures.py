@@ -16,7 +16,7 @@ from xml.sax.saxutils import escape
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "tests" / "repl"))
 
-from terminal import COLUMNS, Terminal  # noqa: E402 - found there
+from terminal import COLUMNS, Terminal  # type: ignore[import-not-found]  # noqa: E402
 
 PICTURES = HERE / "pictures"
 CELL = 8.4, 18.0

@@ -63,7 +63,7 @@ class Terminal:
         """Press a key by its name."""
         self._child.send(KEYS[key])
 
-    def wait(self, shown: str | Callable[[str], bool], patience_s: float = 20.0) -> float:
+    def wait(self, shown: str | Callable[[str], bool], patience_s: float = 60.0) -> float:
         """Wait until the screen shows something; return how long that took, in seconds."""
         began = time.monotonic()
         seen = shown if callable(shown) else lambda text: shown in text

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
-import nbformat
-from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
-
+INDENT = "    "
 NOTEBOOK = Path(__file__).with_name("azee.ipynb")
 CELLS = (
     """# AZee in a notebook
@@ -51,21 +50,28 @@ below it is how well each constraint is met.""",
 """Cells of code are indented; the others are Markdown."""
 
 
-def notebook() -> nbformat.NotebookNode:
-    """Return the notebook without outputs."""
-    cells = []
+def notebook() -> str:
+    """Return the notebook without outputs, in version 4.5 of the format."""
+    cells: list[dict[str, object]] = []
     for number, text in enumerate(CELLS):
-        code = text.startswith("    ")
-        if code:
-            text = "\n".join(
-                line[4:] if line.startswith("    ") else line for line in text.splitlines()
-            )
-        cell = (new_code_cell if code else new_markdown_cell)(text)
-        cell["id"] = f"cell-{number}"
-        cells.append(cell)
+        code = text.startswith(INDENT)
+        lines = [line.removeprefix(INDENT) if code else line for line in text.splitlines()]
+        cell: dict[str, object] = {
+            "cell_type": "code" if code else "markdown",
+            "id": f"cell-{number}",
+            "metadata": {},
+            "source": "\n".join(lines),
+        }
+        cells.append(cell | ({"execution_count": None, "outputs": []} if code else {}))
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    return new_notebook(cells=cells, metadata={"kernelspec": kernel})
+    document = {
+        "cells": cells,
+        "metadata": {"kernelspec": kernel},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
 
 if __name__ == "__main__":
-    nbformat.write(notebook(), NOTEBOOK)
+    NOTEBOOK.write_text(notebook(), encoding="utf-8")

@@ -124,7 +124,7 @@ class Clearing:
             if not len(rows):
                 continue
             reach = self.overlaps.reach(self.meant(times[rows[0]], times[rows[-1]]))
-            depth = self.overlaps.depth(q[rows], reach, NEAR_M)
+            depth = self.overlaps.depth(q[rows], reach)
             for t, p in zip(*np.nonzero(depth > self._seen), strict=True):
                 found.setdefault(int(p), []).append(int(rows[t]))
         return {pair: np.array(rows, dtype=np.int64) for pair, rows in found.items()}
@@ -226,42 +226,48 @@ class _Search:
     def least(self) -> Array | None:
         """Return the change, (n,) radians; none if it would hardly lessen the overlaps."""
         n = self.basis.shape[2]
-        depth = self.overlaps.depth(self.q, self.reach, NEAR_M)
+        depth = self.overlaps.depth(self.q, self.reach)
         nearer = depth.max(axis=0) - np.maximum(depth[0], depth[-1])
         if not np.any((depth.max(axis=0) > -SEEN * self.overlaps.clear_m) & (nearer > LEAST_M)):
             return None
         pairs = np.flatnonzero(np.any(depth > -NEAR_M, axis=0))
         clear = self.overlaps.clear_m[pairs]
-        ends = np.maximum(self.overlaps.depth(self.q[[0, -1]], self.reach, NEAR_M, pairs), -clear)
+        ends = np.maximum(self.overlaps.depth(self.q[[0, -1]], self.reach, pairs), -clear)
         along = np.linspace(0.0, 1.0, len(self.q))[:, None]
         leaving = 1.0 - minimum_jerk(along / TAPER)
         coming = 1.0 - minimum_jerk((1.0 - along) / TAPER)
         wanted = np.maximum((ends[0] + clear) * leaving, (ends[1] + clear) * coming) - clear
         c, damping = np.zeros(n), 30.0
-        error = self._errors(c[None], pairs, wanted)[0]
+        error, J = self._errors(c, pairs, wanted)
         began = float(np.max(error))
         for _ in range(STEPS):
             if np.max(error) <= LEFT * float(np.min(clear)):
                 break
-            probes = c + np.vstack([np.zeros(n), 1e-3 * np.eye(n)])
-            values = self._errors(probes, pairs, wanted)
-            J = (values[1:] - values[0]).T / 1e-3
             lhs = J.T @ J + (WEIGHT_M**2 + damping * 1e-3) * np.eye(n)
-            step = -np.linalg.solve(lhs, J.T @ values[0] + WEIGHT_M**2 * c)
+            step = -np.linalg.solve(lhs, J.T @ error + WEIGHT_M**2 * c)
             step *= min(1.0, STRIDE_RAD / max(1e-9, float(np.max(np.abs(step)))))
-            new = self._errors((c + step)[None], pairs, wanted)[0]
+            new, slope = self._errors(c + step, pairs, wanted)
             if np.sum(new**2) < np.sum(error**2):
-                c, error, damping = c + step, new, damping / 3
+                c, error, J, damping = c + step, new, slope, damping / 3
             else:
                 damping *= 8
                 if damping > 1e3:
                     break
         return c if float(np.max(error)) < BETTER * began else None
 
-    def _errors(self, changes: Array, pairs: NDArray[np.int64], wanted: Array) -> Array:
-        """Depths beyond what is wanted, (T, P), after some changes (m, n), (m, T · P) metres."""
-        q = self.q + np.einsum("tvn,mn->mtv", self.basis, changes)
-        q = np.clip(q, self.lower, self.upper)
-        m, t, v = q.shape
-        depth = self.overlaps.depth(q.reshape(m * t, v), self.reach, float(np.max(-wanted)), pairs)
-        return np.asarray(np.maximum(depth.reshape(m, t, -1) - wanted, 0.0).reshape(m, -1))
+    def _errors(
+        self, change: Array, pairs: NDArray[np.int64], wanted: Array
+    ) -> tuple[Array, Array]:
+        """Depths beyond what is wanted after a change (n,), and their Jacobian.
+
+        Returns: (T · P,) metres and (T · P, n).
+        """
+        asked = self.q + self.basis @ change
+        q = np.clip(asked, self.lower, self.upper)
+        members = np.flatnonzero(np.any(self.basis != 0.0, axis=(0, 2)))
+        depth, slope = self.overlaps.slopes(q, self.reach, pairs, members)
+        beyond = depth - wanted
+        # A coordinate at its limit does not move, what is far enough does not count.
+        moving = (asked == q)[:, None, members] & (beyond > 0.0)[:, :, None]
+        J = np.einsum("tpv,tvn->tpn", np.where(moving, slope, 0.0), self.basis[:, members])
+        return np.maximum(beyond, 0.0).ravel(), J.reshape(-1, len(change))

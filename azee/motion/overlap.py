@@ -12,18 +12,17 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_rig.chain import Frames
 from azee_solver.anatomy import Part, anatomy
-from azee_solver.collisions import Obstacles, segment_distance
+from azee_solver.collisions import Obstacles
 from azee_solver.constraint import Constraint, Place
 from azee_solver.evaluate import Evaluator
+from azee_solver.parting import Parting
 
 Array = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 CLEAR_M, FINGERS_CLEAR_M = 0.007, 0.0005
 """Fingers of one hand lie side by side; everything else keeps a little away."""
-FAR_M = -1.0
-"""Stands for pairs that are nowhere near each other."""
 
 
 class Overlaps:
@@ -38,10 +37,8 @@ class Overlaps:
         self._evaluator, self._rig = evaluator, evaluator.rig
         self._anatomy = anatomy(self._rig.chain, self._rig.coordinates)
         capsules = self._rig.capsules
-        self.pairs: NDArray[np.int64] = Obstacles(evaluator.binding, self._anatomy, ()).pairs
+        self.pairs: Ints = Obstacles(evaluator.binding, self._anatomy, ()).pairs
         self.nodes = capsules.node[self.pairs]
-        length = np.linalg.norm(capsules.b - capsules.a, axis=1)
-        self._span = (length / 2)[self.pairs].sum(axis=1)
         hands = [*self._anatomy.of(Part.HAND)]
         others = np.ones(len(self._rig.coordinates), dtype=np.bool_)
         others[hands] = False
@@ -79,29 +76,18 @@ class Overlaps:
     def _reach_of(self, places: tuple[Constraint, ...]) -> Array:
         return Obstacles(self._evaluator.binding, self._anatomy, places).reach
 
-    def depth(
-        self, q: Array, reach: Array, near_m: float, pairs: NDArray[np.int64] | None = None
-    ) -> Array:
+    def depth(self, q: Array, reach: Array, pairs: Ints | None = None) -> Array:
         """Return how deep pairs overlap in postures, (T, P) metres; negative if they are apart.
 
-        Args: q: (T, V). reach: (P,), as `reach` gives it. near_m: pairs farther apart are `FAR_M`.
-            pairs: indices of those to look at, all by default.
+        Args: q: (T, V). reach: all pairs', as `reach` gives it. pairs: indices of those to look
+            at, all by default.
         """
-        chosen = np.arange(len(self.pairs)) if pairs is None else pairs
-        a, b = self._ends(self._rig.chain.frames(q))
-        i, j = self.pairs[chosen].T
-        middle = (a + b) / 2
-        out = np.full((len(q), len(chosen)), FAR_M)
-        gap = np.linalg.norm(middle[:, i] - middle[:, j], axis=2) - self._span[chosen]
-        t, p = np.nonzero(gap < reach[chosen] + near_m)
-        distance = segment_distance(a[t, i[p]], b[t, i[p]], a[t, j[p]], b[t, j[p]])
-        out[t, p] = reach[chosen][p] - distance
-        return out
+        return self.slopes(q, reach, pairs, np.empty(0, dtype=np.int64))[0]
 
-    def _ends(self, frames: Frames) -> tuple[Array, Array]:
-        """World ends of all capsules' axes in postures, (T, K, 3) each."""
-        capsules = self._rig.capsules
-        o, R = frames.positions[:, capsules.node], frames.rotations[:, capsules.node]
-        a = o + (R @ capsules.a[..., None])[..., 0]
-        b = o + (R @ capsules.b[..., None])[..., 0]
-        return a, b
+    def slopes(
+        self, q: Array, reach: Array, pairs: Ints | None, coordinates: Ints
+    ) -> tuple[Array, Array]:
+        """Return depths, and how they change with some coordinates, (T, P, n) metres a radian."""
+        chosen = np.arange(len(self.pairs)) if pairs is None else pairs
+        parting = Parting(self._rig, self.pairs[chosen])
+        return parting.depths(q, reach[chosen], coordinates)

@@ -104,7 +104,7 @@ def penetrations(rig: Rig, q: Array, times_s: Array, clearing: Clearing) -> tupl
     """
     overlaps = clearing.overlaps
     plain = overlaps.reach(())
-    depth = np.vstack([overlaps.depth(part, plain, -SEEN_M) for part in _chunks(q)])
+    depth = np.vstack([overlaps.depth(part, plain) for part in _chunks(q)])
     same_hand = overlaps.same_hand
     out: list[Penetration] = []
     for regions, columns in _by_regions(overlaps, ~same_hand).items():

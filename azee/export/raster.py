@@ -181,7 +181,10 @@ def shade(
     view = np.empty(3)
     pixel = np.empty(3)
     whole = samples * samples
+    bare = np.empty(3, dtype=np.uint8)
     for v0 in range(rows):
+        for k in range(3):
+            bare[k] = np.uint8(_encoded(background[v0, k], curve) * 255.0 + 0.5)
         for u0 in range(columns):
             pixel[:] = 0.0
             cover = 0
@@ -263,7 +266,10 @@ def shade(
                     rim = lights[3, k] * grazing * up
                     colour = base[k] * (light + free * (ambient + rim)) + lights[0, k] * highlight
                     pixel[k] += count * colour
-            if channels == 4:
+            if channels == 3 and cover == 0:
+                for k in range(3):
+                    out[v0, u0, k] = bare[k]
+            elif channels == 4:
                 share = max(cover, 1)
                 for k in range(3):
                     out[v0, u0, k] = np.uint8(_encoded(pixel[k] / share, curve) * 255.0 + 0.5)

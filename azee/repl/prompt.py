@@ -174,6 +174,7 @@ def _keys(repl: Repl) -> KeyBindings:
         if state is not None and state.current_completion is not None:
             buffer.complete_state = None
         elif _ends(buffer.document, repl):
+            buffer.document = Document(buffer.text.rstrip())  # so that, recalled, it can go on
             buffer.validate_and_handle()
         else:
             buffer.insert_text(f"\n{_indentation(buffer, repl)}")

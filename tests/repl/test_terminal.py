@@ -54,8 +54,8 @@ def test_a_session(tmp_path: Path) -> None:
         time.sleep(0.5)
         terminal.press("ctrl-c")
         assert terminal.wait("interrupted") < 3
-        terminal.type("add 20 22\n")
-        terminal.wait("42  a number")
+        terminal.type("add 20 3\n")
+        terminal.wait("23  a number")
 
         terminal.type(":wag\n")
         terminal.wait("a score of 0.5 s")
@@ -63,6 +63,12 @@ def test_a_session(tmp_path: Path) -> None:
         terminal.type(":wag\n")
         terminal.wait("a score of 0.75 s")
         assert "reloaded mine.azee" in terminal.text
+
+        terminal.type("add\n1\n\n")
+        terminal.wait("error[missing-argument]")
+        terminal.press("up")
+        terminal.type("\n41\n\n")  # an earlier input goes on where it ended
+        terminal.wait("42  a number")
 
         terminal.press("ctrl-d")
         assert terminal.ended() == 0

@@ -78,7 +78,8 @@ def _recorded(path: Path, rig: Rig | None) -> OpenClip:
         raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
     body = rig or load_rig(SHIPPED)
     if not is_own(recording, body):
-        raise AZeeError(_no_clip(f"`{path}` moves another skeleton than that of `{body.name}`"))
+        message = f"`{path}` moves another skeleton than that of `{body.name}`"
+        raise AZeeError(_no_clip(message, "name the body that it moves with --rig"))
     clip, lost_rad = own_clip(recording, body)
     notes: Sequence[str] = ()
     if lost_rad > LOST_RAD:
@@ -88,8 +89,8 @@ def _recorded(path: Path, rig: Rig | None) -> OpenClip:
     return OpenClip(clip, body, tuple(notes))
 
 
-def _no_clip(message: str) -> Diagnostic:
-    return Diagnostic("not-a-clip", message, None)
+def _no_clip(message: str, remedy: str | None = None) -> Diagnostic:
+    return Diagnostic("not-a-clip", message, None, help=remedy)
 
 
 def _unreadable(path: Path, error: OSError) -> Diagnostic:

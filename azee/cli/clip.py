@@ -81,7 +81,7 @@ def cut(
     from azee.motion.edit import shifted
 
     check_outputs(outputs)
-    found = _open([file], rig)[0]
+    found = _open([file], rig, quiet)[0]
     with _in_words():
         whole = shifted(found.clip, -float(found.clip.times[0]))
         last = whole.duration_s
@@ -120,7 +120,7 @@ def join(
     from azee.motion.blend import joined
 
     check_outputs(outputs)
-    found = _open(files, rig)
+    found = _open(files, rig, quiet)
     clips = [each.clip for each in found]
     body = found[0].rig
     if foreign := [
@@ -145,7 +145,7 @@ def mirror(
     from azee.motion.edit import left_handed
 
     check_outputs(outputs)
-    found = _open([file], rig)[0]
+    found = _open([file], rig, quiet)[0]
     _save(left_handed(found.clip, found.rig.coordinates), found.rig, outputs, fps, quiet)
 
 
@@ -169,7 +169,7 @@ def retime(
     if (duration_s is None) == (speed is None):
         raise click.UsageError("give either --duration or --speed")
     check_outputs(outputs)
-    found = _open([file], rig)[0]
+    found = _open([file], rig, quiet)[0]
     with _in_words():
         seconds = duration_s if duration_s is not None else found.clip.duration_s / (speed or 1.0)
         moved = retimed(found.clip, seconds)
@@ -184,11 +184,11 @@ def convert(
 ) -> None:
     """Write FILE in other formats, or with another frame rate."""
     check_outputs(outputs)
-    found = _open([file], rig)[0]
+    found = _open([file], rig, quiet)[0]
     _save(found.clip, found.rig, outputs, fps, quiet)
 
 
-def _open(files: Sequence[Path], rig: str | None) -> list[OpenClip]:
+def _open(files: Sequence[Path], rig: str | None, quiet: bool) -> list[OpenClip]:
     """Read clips for one body. Raises: AZeeError, click.BadParameter."""
     from azee.clips import open_clip
     from azee_rig.load import RigError
@@ -200,7 +200,7 @@ def _open(files: Sequence[Path], rig: str | None) -> list[OpenClip]:
         raise click.BadParameter(str(error), param_hint="'--rig'") from error
     for file, each in zip(files, found, strict=True):
         for note in each.notes:
-            news(f"{file}: {note}")
+            news(f"{file}: {note}", quiet=quiet)
     return found
 
 

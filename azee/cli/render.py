@@ -127,7 +127,7 @@ def render(
     if films:
         _encoder_there()
     if file is not None and Path(file).suffix.lower() in CLIP_SUFFIXES:
-        clip, body, keys = _of_clip(Path(file), expression, rig)
+        clip, body, keys = _of_clip(Path(file), expression, rig, quiet)
     else:
         text = Text.read(file, expression, utterance, libraries)
         clip, body, keys = _of_text(text, rig or "signer", dominant, not no_life, quiet)
@@ -164,7 +164,7 @@ def _of_text(
 
 
 def _of_clip(
-    file: Path, expression: str | None, rig: str | None
+    file: Path, expression: str | None, rig: str | None, quiet: bool
 ) -> tuple[Clip, Rig, Sequence[float] | None]:
     from azee.clips import open_clip
     from azee_rig.load import RigError
@@ -177,7 +177,7 @@ def _of_clip(
     except RigError as error:
         raise click.BadParameter(str(error), param_hint="'--rig'") from error
     for note in found.notes:
-        news(f"{file}: {note}")
+        news(f"{file}: {note}", quiet=quiet)
     return found.clip, found.rig, None
 
 

@@ -214,7 +214,11 @@ def test_what_cannot_be_drawn_is_said_in_one_message(
 
 
 def test_clips_are_worked_on_from_the_command_line(
-    waving: Clip, signer: Rig, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    waving: Clip,
+    signer: Rig,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     from azee.clips import open_clip
 
@@ -241,6 +245,12 @@ def test_clips_are_worked_on_from_the_command_line(
     np.testing.assert_allclose(again.coordinates, lengths["c"].coordinates, atol=1e-6)
     shutil.copy("c.bvh", "broken.npz")
     assert run(["clip", "convert", "broken.npz", "-o", "x.npz"]) == 1
+    foreign = Path("c.bvh").read_text(encoding="ascii").replace("OFFSET 0.0", "OFFSET 9.0")
+    Path("foreign.bvh").write_text(foreign, encoding="ascii")
+    assert run(["clip", "convert", "foreign.bvh", "-o", "x.npz"]) == 1
+    Path("cut-off.bvh").write_text(foreign[:5000], encoding="ascii")
+    assert run(["clip", "convert", "cut-off.bvh", "-o", "x.npz"]) == 1
+    assert capsys.readouterr().err.count("error[not-a-clip]") == 3
     assert run(["clip", "cut", "w.npz", "--from", "8", "-o", "x.npz"]) == 1
     assert run(["clip", "retime", "w.npz", "-o", "x.npz"]) == 2
     assert not Path("x.npz").exists()

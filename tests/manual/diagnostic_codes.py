@@ -14,7 +14,7 @@ import azee_solver
 PACKAGES = (azee, azee_grammar, azee_solver, azee_rig)
 """As they are imported: from the tree, or from an installed wheel."""
 
-MAKERS = {"Diagnostic", "BindingError", "LayoutError", "fault", "_problem"}
+MAKERS = {"BindingError", "BodyError", "Diagnostic", "LayoutError", "fault", "_problem"}
 """Whoever is called by one of these names takes the code as its first argument."""
 
 

@@ -47,6 +47,10 @@ FILES = {
     "south/tea.azee": b"def tea\n    :mignon\n",
     "rules-only.azee": b"def tea\n    :bien\n",
     "latin-1.azee": ":âge\n".encode("latin-1"),
+    "body.fbx": b"Kaydara FBX Binary",
+    "old.gltf": b'{"asset": {"version": "1.0"}}',
+    "statue.gltf": b'{"asset": {"version": "2.0"}}',
+    "kept/letter.txt": b"keep me",
     "sign.npz": _sign(),
 }
 """What the examples find beside them."""

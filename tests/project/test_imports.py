@@ -27,6 +27,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee_rig": {"numpy"},
     "azee_rig.skin_kernel": {"numpy", "numba"},
     "azee_rig.build": {"azee_rig", "numpy", "trimesh"},
+    "azee_rig.importing": {"azee_rig", "numpy", "trimesh", "PIL"},
     "azee_solver.geometry": set(),
     "azee_solver.constraint": {"azee_solver.geometry"},
     "azee_solver": {"azee_rig", "numpy", "numba", "nlopt"},

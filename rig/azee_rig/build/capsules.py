@@ -36,6 +36,8 @@ HEAD = {
 radius, in distances between the eyes. They came out of a least-squares fit of four capsules to
 the signer's skin without the ears: 95 % of it is less than 4 mm outside."""
 FINGER_SHARE = 66.0
+THIN = 0.2
+"""Radius of a bone that carries no skin, as a share of its length."""
 COLLAR_M = 0.05
 """Half the thickness of the shoulders between neck and arm."""
 
@@ -48,6 +50,7 @@ class _Fitter:
     node_names: tuple[str, ...]
     bones: Mapping[str, BoneNodes]
     joints: Mapping[str, tuple[str, ...]]
+    size: float
     made: dict[str, tuple[int, Floats, Floats, float]] = field(default_factory=dict)
 
     def add(self, name: str, node: int, a: Floats, b: Floats, radius: float) -> None:
@@ -67,9 +70,13 @@ def fit_capsules(
     node_names: tuple[str, ...],
     bones: Mapping[str, BoneNodes],
     joints: Mapping[str, tuple[str, ...]],
+    size: float = 1.0,
 ) -> Capsules:
-    """Fit all capsules in the mesh's own posture and list the pairs that must not overlap."""
-    fit = _Fitter(surface, anatomy, frames, node_names, bones, joints)
+    """Fit all capsules in the mesh's own posture and list the pairs that must not overlap.
+
+    Args: size: of the body, relative to the signer, where a length here is in metres.
+    """
+    fit = _Fitter(surface, anatomy, frames, node_names, bones, joints, size)
     _fit_trunk(fit)
     _fit_head(fit)
     for side in SIDES:
@@ -95,7 +102,7 @@ def _fit_trunk(fit: _Fitter) -> None:
     skin = fit.skin_of("back_1", "back_2", "root")
     for i, at in enumerate(TRUNK_HEIGHTS):
         y = low[1] + at * (high[1] - low[1])
-        band = skin[np.abs(skin[:, 1] - y) < BAND_M]
+        band = _band(skin, y, BAND_M * fit.size)
         depth = np.percentile(band[:, 2], [3.0, 97.0])
         radius = float(depth[1] - depth[0]) / 2.0
         half = max(float(np.percentile(np.abs(band[:, 0]), 97.0)) - radius, 0.01)
@@ -103,6 +110,15 @@ def _fit_trunk(fit: _Fitter) -> None:
         node = trunk[max(0, sum(y >= level for level in levels) - 1)]
         out = np.array([half, 0.0, 0.0])
         fit.add(f"trunk_{i + 1}", fit.node_names.index(node), middle - out, middle + out, radius)
+
+
+def _band(skin: Floats, y: float, half: float) -> Floats:
+    """Skin about as high as y; where there is none, the nearest; without any skin, a small ball."""
+    if not len(skin):
+        return np.asarray((0.0, y, 0.0) + half * np.vstack([np.eye(3), -np.eye(3)]))
+    gap = np.abs(skin[:, 1] - y)
+    near = skin[gap < half]
+    return np.asarray(near if len(near) else skin[np.argsort(gap)[:8]])
 
 
 def _fit_head(fit: _Fitter) -> None:
@@ -124,7 +140,8 @@ def _fit_arm(fit: _Fitter, side: str) -> None:
     shoulder, neck = fit.anatomy.origin(arm), fit.anatomy.origin("neck")
     root = neck + 0.35 * (shoulder - neck)
     collar = fit.bones[f"clav_{side}"].node
-    fit.add(f"collar_{side}", collar, root - (0.0, COLLAR_M, 0.0), shoulder, COLLAR_M)
+    half = COLLAR_M * fit.size
+    fit.add(f"collar_{side}", collar, root - (0.0, half, 0.0), shoulder, half)
     _fit_limb(fit, f"forearm_{side}", fit.bones[f_arm].node, f_arm, palm, (f_arm,), 0.12, 1.0)
     wrist = fit.anatomy.origin(palm)
     flesh = fit.skin_of(palm)
@@ -133,12 +150,16 @@ def _fit_arm(fit: _Fitter, side: str) -> None:
         knuckle = np.mean([fit.anatomy.origin(f"{f}_{side}_1") for f in fingers], axis=0)
         start = wrist + 0.25 * (knuckle - wrist)
         depth = (flesh - start) @ R[:, 2]
-        near = np.abs((flesh - start) @ R[:, 0]) < 0.02
-        thick = np.percentile(depth[near], [5.0, 95.0])
+        near = np.abs((flesh - start) @ R[:, 0]) < 0.02 * fit.size
+        thick = np.percentile(depth[near], [5.0, 95.0]) if near.any() else np.zeros(2)
         middle = R[:, 2] * thick.mean() * 0.5
         radius = float(thick[1] - thick[0]) / 2.0
         fit.add(
-            f"hand_{side}_{name}", fit.bones[palm].node, start + middle, knuckle, min(radius, 0.019)
+            f"hand_{side}_{name}",
+            fit.bones[palm].node,
+            start + middle,
+            knuckle,
+            min(radius, 0.019 * fit.size),
         )
     for digit in DIGITS:
         for k in PHALANGES:
@@ -179,6 +200,8 @@ def _radius(points: Floats, a: Floats, b: Floats, share: float, from_end: float 
     """
     along = (points - a) @ (b - a) / ((b - a) @ (b - a))
     counted = (along >= from_end) & (along <= 1.0)
+    if not counted.any():
+        return THIN * float(np.linalg.norm(b - a))
     foot = a + along[counted, None] * (b - a)
     return float(np.percentile(np.linalg.norm(points[counted] - foot, axis=1), share))
 

@@ -56,7 +56,7 @@ STRAIGHT_DEG, BACKWARD_DEG = 3.0, 15.0
 """An elbow bent by less, or by less and to the wrong side, is taken for straight."""
 SAME_M, LOCKED = 1e-6, 1e-9
 RAISED_DEG = 75.0
-"""From here on abduction hardly tells flexion from rotation: clavicles go by elevation."""
+"""Abduction of a mesh whose arms count as held out."""
 
 UP, FORWARD, LEFT = np.eye(3)[1], np.eye(3)[2], np.eye(3)[0]
 TRUNK = np.eye(3)
@@ -176,6 +176,13 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     in_mesh = frame(along_arm, _crease(along_arm, along_f_arm))
     hanging = frame(-UP, FORWARD)
     a, b, c = _turn_angles(hanging.T @ in_mesh, X, NRM, DIR)
+    if abs(b) > np.radians(RAISED_DEG):
+        # Held out so far, abduction hardly tells flexion from rotation: the plane of abduction is
+        # laid through the arm instead, by a turn of the hanging arm about its own axis.
+        hanging = about_axis(1, np.arctan2(-sign * along_arm[2], sign * along_arm[0])) @ hanging
+        a, b = 0.0, sign * float(np.arccos(np.clip(-along_arm[1], -1.0, 1.0)))
+        turned = (hanging @ about_axis(NRM, b)).T @ in_mesh
+        c = float(np.arctan2(turned[0, 2], turned[0, 0]))
     made.bind |= {
         f"{arm}.flexion": a,
         f"{arm}.abduction": sign * b,
@@ -187,10 +194,6 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     if np.linalg.norm(along) < SAME_M:  # a body without clavicles
         along = sign * LEFT
     lifted = sum(scale * made.bind[coordinate] for _, scale, coordinate in rhythm)
-    if np.degrees(made.bind[f"{arm}.abduction"]) > RAISED_DEG:
-        raised = RHYTHM["abduction"] * np.arccos(np.clip(-along_arm[1], -1.0, 1.0))
-        made.bind[f"{clav}.elevation"] = float(raised - sign * lifted)
-        lifted = sign * raised
     clav_zero = frame(along, FORWARD) @ about_axis(NRM, -lifted)
     own = [(NRM, sign, f"{clav}.elevation"), (X, 1.0, f"{clav}.protraction")]
     made.node(

@@ -50,7 +50,9 @@ def hair(skin: Piece, ears: Mask, anatomy: Anatomy) -> Piece:
     middle, apart = (eyes[0] + eyes[1]) / 2.0, float(np.linalg.norm(eyes[0] - eyes[1]))
     centre = middle + np.array([0.0, 0.4, -1.35]) * apart
     marked = replace(skin, colours=np.repeat(ears[:, None].astype(np.float64), 3, axis=1))
-    near = (skin.vertices[:, 1] > middle[1] - 2.2 * apart) & (skin.vertices[:, 2] < middle[2])
+    near = (skin.vertices[:, 1] > middle[1] - 2.2 * apart) & (
+        skin.vertices[:, 2] < middle[2] + 0.35 * apart
+    )
     scalp = marked.only(near[skin.triangles].all(axis=1)).subdivided().subdivided()
 
     def above(at: Floats) -> Floats:
@@ -81,7 +83,7 @@ def _above_hairline(at: Floats, centre: Floats, middle: Floats, apart: float) ->
     line = middle[1] + apart * np.interp(around, *HAIRLINE.T)
     side = np.arctan2(at[:, 0] - centre[0], at[:, 2] - centre[2])
     fray = np.sin(47.0 * side + 0.4) + np.sin(83.0 * side) + 0.7 * np.sin(131.0 * side + 1.3)
-    return np.asarray(at[:, 1] - line - 0.0011 * fray)
+    return np.asarray(at[:, 1] - line - 0.0004 * fray)
 
 
 def _around(at: Floats, centre: Floats) -> Floats:

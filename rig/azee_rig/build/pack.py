@@ -1,6 +1,6 @@
 """Writes a rig's folder: the same input gives the same bytes, on any day and any machine.
 
-Arrays go into an uncompressed zip with a fixed date, for compressors differ between versions;
+Arrays go into a zip with a fixed date, uncompressed where bytes count, for compressors differ;
 numbers in JSON are rounded, which outlasts the last bits in which linear algebra libraries
 differ: the chain to a picometre, what was measured on the mesh to a micrometre.
 """
@@ -24,19 +24,27 @@ DELTA_M = 1e-5
 _DATE = (1980, 1, 1, 0, 0, 0)
 
 
-def write_arrays(path: Path, arrays: Mapping[str, NDArray[np.generic]]) -> None:
-    """Write an .npz that bears no date and no compression."""
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
+def write_arrays(
+    path: Path, arrays: Mapping[str, NDArray[np.generic]], *, compressed: bool = False
+) -> None:
+    """Write an .npz that bears no date; `compressed` halves it, at the price named above."""
+    how = zipfile.ZIP_DEFLATED if compressed else zipfile.ZIP_STORED
+    with zipfile.ZipFile(path, "w", how) as archive:
         for name, array in arrays.items():
             buffer = io.BytesIO()
             np.lib.format.write_array(buffer, np.ascontiguousarray(array), allow_pickle=False)
             entry = zipfile.ZipInfo(f"{name}.npy", _DATE)
             entry.external_attr = 0o644 << 16
-            archive.writestr(entry, buffer.getvalue())
+            archive.writestr(entry, buffer.getvalue(), compress_type=how, compresslevel=9)
 
 
-def write_mesh(path: Path, mesh: BodyMesh) -> None:
-    """Pack a mesh: see azee_rig.mesh.read_mesh for the units."""
+def write_mesh(path: Path, mesh: BodyMesh, *, compressed: bool = False) -> None:
+    """Pack a mesh: see azee_rig.mesh.read_mesh for the units.
+
+    Numbers of more than 16 bits, and shifts of more than 32 cm, are for large meshes of others.
+    """
+    rows = "<u2" if len(mesh.vertices) <= 0x10000 else "<u4"
+    delta_m = max(DELTA_M, float(np.abs(mesh.unit_deltas).max(initial=0.0)) / 0x7FFF)
     described = {
         "parts": [
             {
@@ -49,7 +57,7 @@ def write_mesh(path: Path, mesh: BodyMesh) -> None:
             for p in mesh.parts
         ],
         "units": mesh.units,
-        "delta_m": DELTA_M,
+        "delta_m": delta_m,
         "joint_count": mesh.joint_count,
     }
     text = json.dumps(described, separators=(",", ":")).encode()
@@ -58,14 +66,15 @@ def write_mesh(path: Path, mesh: BodyMesh) -> None:
         {
             "described": np.frombuffer(text, dtype=np.uint8),
             "vertices": mesh.vertices.astype("<f4"),
-            "triangles": mesh.triangles.astype("<u2"),
+            "triangles": mesh.triangles.astype(rows),
             "colours": np.round(mesh.colours * 255.0).astype(np.uint8),
-            "joints": mesh.joints.astype(np.uint8),
+            "joints": mesh.joints.astype(np.uint8 if mesh.joint_count <= 0x100 else "<u2"),
             "weights": np.round(mesh.weights * 65535.0).astype("<u2"),
             "unit_start": mesh.unit_start.astype("<i4"),
-            "unit_rows": mesh.unit_rows.astype("<u2"),
-            "unit_deltas": np.round(mesh.unit_deltas / DELTA_M).astype("<i2"),
+            "unit_rows": mesh.unit_rows.astype(rows),
+            "unit_deltas": np.round(mesh.unit_deltas / delta_m).astype("<i2"),
         },
+        compressed=compressed,
     )
 
 

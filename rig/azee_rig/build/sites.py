@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -111,6 +111,15 @@ class SitePlacer:
         except ValueError as error:
             raise ValueError(f"{rule.name}: {error}") from error
         return RigSite(rule.name, rule.bone, node, R.T @ (point - origin), R.T @ normal)
+
+    def place_or_near(self, rule: SiteRule) -> RigSite | None:
+        """Place a site; where its own part is not met, on what is; None if nothing is met."""
+        for on in (rule.on, "head" if rule.bone == "head" else "all"):
+            try:
+                return self.place(replace(rule, on=on))
+            except ValueError:
+                continue
+        return None
 
     def _node(self, rule: SiteRule) -> int:
         named = self.bones.get(rule.node)

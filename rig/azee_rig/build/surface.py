@@ -55,7 +55,7 @@ class Surface:
         places, _, triangles = self.tree.ray.intersects_location(
             [start], [direction], multiple_hits=True
         )
-        distance = (places - start) @ direction
+        distance = (places.reshape(-1, 3) - start) @ direction
         usable = [i for i in np.argsort(distance) if allowed[triangles[i]]]
         if not usable:
             raise ValueError("the ray meets nothing that it may meet")

@@ -2,8 +2,8 @@
 
 `python -m benchmarks.penetration [-o FILE.json] [NAME …]`. Every example under examples/ and the
 example of every rule that ships is compiled; at each key posture the posed mesh is asked where
-arms and digits lie inside trunk, head or each other, but for places where a constraint brings two
-sites together. The worst ten are printed, and whether the report named them.
+arms and digits that it is a key of lie inside trunk, head or each other, but for places where a
+constraint brings two sites together. The worst ten are printed, and whether the report named them.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from azee.cli.rules import _example
 from azee.compilation import perform, score_of
@@ -31,7 +30,7 @@ from azee_rig.rig import Rig
 from azee_solver.constraint import Place
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side, SitePoint
-from azee_solver.penetration import mesh_penetration
+from azee_solver.penetration import Contact, meant_contact, mesh_penetration
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 TOLERATED_M = 3e-3
@@ -73,6 +72,8 @@ def findings(sign: str, score: Score, rig: Rig) -> Iterator[Finding]:
         seen.add(q.tobytes())
         unmet = tuple(c.kind for c in posture.report.constraints if not c.met)
         for found in mesh_penetration(rig, q, contacts(rig, posture)):
+            if not {found.limb, found.body} & posture.limbs:
+                continue  # on its way between two keys of its own
             yield Finding(
                 sign,
                 round(float(posture.time), 3),
@@ -83,12 +84,12 @@ def findings(sign: str, score: Score, rig: Rig) -> Iterator[Finding]:
             )
 
 
-def contacts(rig: Rig, posture: KeyPosture) -> list[NDArray[np.float64]]:
+def contacts(rig: Rig, posture: KeyPosture) -> list[Contact]:
     """Where constraints bring two sites together."""
     evaluator = Evaluator(rig, Side.RIGHT)
     frames = rig.chain.frames(posture.coordinates)
     return [
-        evaluator.site(demand.constraint.site, frames)
+        meant_contact(evaluator, frames, demand.constraint)
         for demand in posture.demands
         if isinstance(demand.constraint, Place) and isinstance(demand.constraint.point, SitePoint)
     ]

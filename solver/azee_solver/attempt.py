@@ -41,6 +41,9 @@ EYE_STIFFNESS, NECK_STIFFNESS = 0.1, 3.0
 EYE_COMFORT = 300.0
 """Keeps led eyes in the middle of their range, so that the head takes the rest."""
 
+BLOCKED = 3
+"""A descent that ends in the body counts so many times against looking on, where a wider problem
+can move the body out of the way."""
 FOLLOWING_STIFFNESS = 4.0
 """Of last finger joints, in following those before them."""
 GAIN = 0.8
@@ -231,7 +234,8 @@ class _Attempt:
             gained = best is None or _gains(merit, _merit(best, options))
             if best is None or merit < _merit(best, options):
                 best = result
-            in_vain = 0 if gained else in_vain + 1
+            blocked = _excess(result, options) > 0.0
+            in_vain = 0 if gained else in_vain + (BLOCKED if blocked and not thorough else 1)
             if in_vain >= options.patience * (2 if thorough else 1):
                 break
         assert best is not None

@@ -35,8 +35,8 @@ OVERLAP = 1e6
 ROUNDS, TOLERANCE = 80, 1e-9
 GAVE_WAY_RAD = 1e-4
 """A thumb that has moved by less has nothing in its way."""
-MARGIN_M = 0.003
-"""Capsules hold most of the skin, not all: so far a thumb stays away from them."""
+MARGIN_M, PALM_MARGIN_M = 0.003, 0.006
+"""Capsules hold most of the skin, not all: so far a thumb stays away from fingers and palm."""
 
 
 def fitted(rig: Rig, presets: Mapping[int, float]) -> dict[int, float]:
@@ -89,4 +89,7 @@ def _within(rig: Rig, side: str, collisions: Collisions) -> Collisions:
     structure = anatomy(rig.chain, rig.coordinates)
     hand = structure.paths[:, rig.bones[f"palm_{side}"].node]
     chosen = hand[rig.capsules.node[collisions.pairs]].all(axis=1)
-    return Collisions(collisions.pairs[chosen], collisions.reach[chosen] + MARGIN_M)
+    pairs = collisions.pairs[chosen]
+    palm = (rig.capsules.node[pairs] == rig.bones[f"palm_{side}"].node).any(axis=1)
+    margin = np.where(palm, PALM_MARGIN_M, MARGIN_M)
+    return Collisions(pairs, collisions.reach[chosen] + margin)

@@ -36,6 +36,6 @@ class SolveOptions:
     finish_rounds: int = 60
     finish_tolerance: float = 1e-8
     further_starts: int = 6
-    patience: int = 2
+    patience: int = 6
     explain: bool = True
     fixed: frozenset[int] = frozenset()

@@ -15,8 +15,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_rig.chain import DIR
+from azee_rig.chain import DIR, Frames
 from azee_solver.anatomy import Anatomy, anatomy
+from azee_solver.constraint import Place
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import SitePoint
 from azee_solver.winding import distances, winding_numbers
 
 if TYPE_CHECKING:
@@ -30,8 +33,9 @@ LOOSE_PARTS = frozenset({"hair", "brows", "lashes", "eyes", "teeth", "tongue", "
 ARMPIT = 0.6
 """So much of the upper arm, from the shoulder, always lies against the trunk and is not counted."""
 DIGITS = ("thumb", "index", "middle", "ring", "little")
-CONTACT_M = 0.02
-"""About a meant contact flesh gives way, which skin that follows bones alone does not show."""
+CONTACT_M, PALM_CONTACT_M = 0.02, 0.055
+"""So far about a meant contact flesh gives way, which skin that follows bones does not show; and
+about one on a palm, which is hollow: its edges stand out around what lies in it."""
 OWN_WEIGHT = 0.9
 """A vertex belongs to a limb if so much of its skin weight does."""
 
@@ -44,6 +48,22 @@ class Penetration:
     body: str
     depth_m: float
     point: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contact:
+    """Touching that is meant about a point (3,) in the world: there nothing is counted."""
+
+    point: Array
+    radius_m: float
+
+
+def meant_contact(evaluator: Evaluator, frames: Frames, place: Place) -> Contact:
+    """Return the contact that a placement of a site on a site makes."""
+    sites = [place.site, *([place.point.site] if isinstance(place.point, SitePoint) else [])]
+    palm = any(evaluator.binding.site(site).bone.startswith("palm") for site in sites)
+    point = evaluator.site(place.site, frames)
+    return Contact(point, PALM_CONTACT_M if palm else CONTACT_M)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,8 +86,7 @@ class _Regions:
 def mesh_penetration(rig: Rig, q: Array, contacts: Sequence[Array] = ()) -> tuple[Penetration, ...]:
     """Return where arms and digits enter trunk, head, the other arm or each other, deepest first.
 
-    Args: q: (V,) coordinates of one posture. contacts: places (3,) in the world where touching is
-        meant; what lies within `CONTACT_M` of one is not counted.
+    Args: q: (V,) coordinates of one posture. contacts: where touching is meant.
     """
     regions = _regions(rig)
     vertices = rig.skin(rig.pose(q))
@@ -82,7 +101,7 @@ def mesh_penetration(rig: Rig, q: Array, contacts: Sequence[Array] = ()) -> tupl
             low, high = boxes[body]
             points = points[np.all((points > low) & (points < high), axis=1)]
             for contact in contacts:
-                points = points[np.linalg.norm(points - contact, axis=1) > CONTACT_M]
+                points = points[np.linalg.norm(points - contact.point, axis=1) > contact.radius_m]
             inside = points[winding_numbers(points, surface) > 0.5]
             if len(inside):
                 depth = distances(inside, surface)

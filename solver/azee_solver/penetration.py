@@ -83,7 +83,9 @@ class _Regions:
     surfaces: Mapping[str, NDArray[np.int64]]
 
 
-def mesh_penetration(rig: Rig, q: Array, contacts: Sequence[Array] = ()) -> tuple[Penetration, ...]:
+def mesh_penetration(
+    rig: Rig, q: Array, contacts: Sequence[Contact] = ()
+) -> tuple[Penetration, ...]:
     """Return where arms and digits enter trunk, head, the other arm or each other, deepest first.
 
     Args: q: (V,) coordinates of one posture. contacts: where touching is meant.

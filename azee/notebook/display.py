@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Bundle = dict[str, str | bytes]
 
 _PORTRAIT = (300, 375)
-_STYLE = "text-align: left; padding: 1px 10px"
+_STYLE = "text-align: left; padding: 1px 10px; white-space: nowrap"
 
 
 def score(shown: Score) -> Bundle:
@@ -39,7 +39,8 @@ def compilation(made: Compilation) -> Bundle:
     from azee.export.score_svg import draw
 
     moving = _moving(made.clip, made.rig, made.animation.key_times)
-    parts = (draw(made.score), moving, _table(made.report))
+    drawing = f'<div style="overflow-x: auto">{draw(made.score)}</div>'
+    parts = (drawing, moving, _table(made.report))
     return {"text/html": "\n".join(parts), "text/plain": _summary(made.report)}
 
 

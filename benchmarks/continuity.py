@@ -13,7 +13,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -102,7 +102,7 @@ def _limits(rig: Rig) -> tuple[Array, Array]:
 def line(rig: Rig, sweep: int) -> Iterator[Array]:
     """Yield the targets of a sweep (3,), a millimetre apart."""
     rng = np.random.default_rng((SEED, sweep))
-    start, other = rig.landmarks.shoulder_middle + rng.uniform(*SPACE_M, size=(2, 3))
+    start, other = rig.landmarks.shoulder_middle + rng.uniform(SPACE_M[0], SPACE_M[1], (2, 3))
     way = (other - start) / np.linalg.norm(other - start)
     for k in range(int(LENGTH_M / STEP_M) + 1):
         yield start + k * STEP_M * way
@@ -167,12 +167,12 @@ def measure(rig: Rig, kind: str, sweeps: int) -> tuple[Row, list[Jump]]:
     return row, jumps
 
 
-def main() -> int:
+def main(given: Sequence[str] | None = None) -> int:
     """Print a row per kind and every jump; 1 if there is one."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--sweeps", type=int, default=12)
     parser.add_argument("-o", "--output", type=Path, help="rows and jumps, as JSON")
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(given)
     rig = load_rig()
     found = [measure(rig, kind, arguments.sweeps) for kind in kinds(WorldPoint(0.0, 0.0, 0.0))]
     print(

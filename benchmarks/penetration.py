@@ -11,7 +11,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -95,12 +95,12 @@ def contacts(rig: Rig, posture: KeyPosture) -> list[Contact]:
     ]
 
 
-def main() -> int:
+def main(given: Sequence[str] | None = None) -> int:
     """Print the worst; 1 if one is deeper than what is tolerated."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", help="examples and rules; by default all")
     parser.add_argument("-o", "--output", type=Path, help="everything, as JSON")
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(given)
     rig = load_rig()
     found: list[Finding] = []
     looked_at = 0

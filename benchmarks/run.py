@@ -1,7 +1,7 @@
 """The benchmarks, all or those that are named: `make bench`.
 
-`python benchmarks/run.py [waits] [language] [motion] [prompt] [solver OPTIONS…]`. What follows
-`solver` goes to it; `python benchmarks/run.py solver --help` lists it.
+`python benchmarks/run.py [NAME…] [OPTIONS…]`. What follows the names goes to the last of them;
+`python benchmarks/run.py solver --help` lists what that one takes.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Sequence
 from importlib import import_module
+from itertools import takewhile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -17,24 +18,21 @@ MODULES = {
     "language": "benchmarks.language_growth",
     "motion": "benchmarks.motion_length",
     "prompt": "benchmarks.prompt",
+    "continuity": "benchmarks.continuity",
+    "penetration": "benchmarks.penetration",
     "solver": "benchmarks.solver_bench",
 }
 
 
 def main(arguments: Sequence[str]) -> None:
     """Run the named benchmarks, one after the other."""
-    names = list(arguments)
-    options: list[str] = []
-    if "solver" in names:
-        at = names.index("solver") + 1
-        names, options = names[:at], names[at:]
-    unknown = [name for name in names if name not in MODULES]
-    if unknown:
-        known = ", ".join(MODULES)
-        sys.exit(f"no benchmark is called {', '.join(unknown)}; there are: {known}")
+    names = list(takewhile(MODULES.__contains__, arguments))
+    options = list(arguments[len(names) :])
+    if options and not names:
+        sys.exit(f"no benchmark is called {options[0]}; there are: {', '.join(MODULES)}")
     for name in names or MODULES:
-        run: Callable[[Sequence[str]], None] = import_module(MODULES[name]).main
-        run(options if name == "solver" else [])
+        run: Callable[[Sequence[str]], object] = import_module(MODULES[name]).main
+        run(options if names and name == names[-1] else [])
 
 
 if __name__ == "__main__":

@@ -171,9 +171,18 @@ def behind_best(rows: Sequence[Row]) -> dict[str, float]:
     }
 
 
-def of_solvable(rows: Sequence[Row]) -> dict[str, tuple[int, int]]:
-    """How many of the problems that any method solves each one does, and of how many."""
-    solvable = [any(miss.within(TIGHT) for miss in misses) for misses in _by_problem(rows)]
+def of_solvable(rows: Sequence[Row], clear_m: float = math.inf) -> dict[str, tuple[int, int]]:
+    """How many of the problems that any method solves each one does, and of how many.
+
+    Args: clear_m: count as solved only what leaves no capsules deeper in each other.
+    """
+    apart = [
+        [depth <= clear_m for depth in row.overlaps_m or [0.0] * len(row.seconds)] for row in rows
+    ]
+    solvable = [
+        any(miss.within(TIGHT) and clear for miss, clear in zip(misses, clears, strict=True))
+        for misses, clears in zip(_by_problem(rows), zip(*apart, strict=True), strict=True)
+    ]
     return {
         r.method: (
             sum(m.within(TIGHT) for m, can in zip(r.residuals, solvable, strict=True) if can),

@@ -11,6 +11,8 @@ from benchmarks.ik.problems import TIGHT
 FULL, APART, LAID_OUT = "ours, everything on", "ours, no collision", "ours, descents alone"
 PLAIN, EASED = "LM kernel", "LM kernel with ease"
 ITASC = "Blender iTaSC"
+CLEAR_M = 3e-3
+"""What is tolerated of overlap."""
 REACHABLE = ("place", "place, 1 orientation", "4 orientations", "place, 2 at stops")
 
 
@@ -60,6 +62,11 @@ def goals_of(classes: Sequence[Sequence[Row]]) -> list[Goal]:
                 for m, (a, b) in shares.items()
                 if m in (FULL, APART) and b
             ]
+        if kind in ("two-handed contact", "tree") and by_method[FULL].overlaps_m:
+            met, of = of_solvable(rows, CLEAR_M)[FULL]
+            if of:
+                what = f"{where}: of what any method solves outside the body, {FULL}"
+                goals.append(Goal(what, 100 * met / of, "%", at_least=98))
         if kind == "unreachable":
             behind = behind_best(rows)
             goals += [

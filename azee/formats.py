@@ -70,11 +70,11 @@ def _npz(clip: Clip, rig: Rig, path: Path) -> None:
         write_clip(clip, rig, file)
 
 
-def _film(clip: Clip, rig: Rig, path: Path) -> None:
+def _film(made: Compilation, path: Path) -> None:
     from azee.export.film import write_film
 
     with filming():
-        write_film(clip, rig, path)
+        write_film(made.clip, made.rig, path, fps=made.report.fps)
 
 
 @contextmanager
@@ -140,4 +140,4 @@ SUFFIXES = tuple(WRITERS)
 """Suffixes of the formats that a compilation can be saved in, but for films."""
 FILM_SUFFIXES = (".mp4", ".webm")
 """Suffixes of films, which take longer and need the extra `film`."""
-WRITERS |= dict.fromkeys(FILM_SUFFIXES, _of_compilation(_film))
+WRITERS |= dict.fromkeys(FILM_SUFFIXES, _film)

@@ -21,7 +21,7 @@ from azee_rig.build.capsules import fit_capsules
 from azee_rig.build.chain_builder import build_chain
 from azee_rig.build.coordinates import coordinate_names, read_coordinates
 from azee_rig.build.dress import dress
-from azee_rig.build.face_units import made_units
+from azee_rig.build.face_units import made_units, over_eyes
 from azee_rig.build.influences import sample_postures, with_four_influences
 from azee_rig.build.joints import build_joints
 from azee_rig.build.landmarks import landmarks_of, signing_space, trunk_front
@@ -91,7 +91,7 @@ def main(wheel: Path, folder: Path) -> None:
     regions = {name: np.array(rows) for name, rows in mapped["regions"].items()}
     anatomy = read_anatomy(body, bones, {s: regions[f"thumb_nail_{s}"] for s in SIDES})
     eyes = np.array([anatomy.origin(f"eye_{side}") for side in SIDES])
-    body = replace(body, shapes={**body.shapes, **made_units(body, eyes)})
+    body = replace(body, shapes={**over_eyes(body, eyes), **made_units(body, eyes)})
     names = coordinate_names(DATA / "coordinates.csv")
     built = build_chain(anatomy, names)
     coordinates = read_coordinates(DATA / "coordinates.csv", built.bind)

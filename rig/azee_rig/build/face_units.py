@@ -1,8 +1,11 @@
-"""Face units that the body's makers left out and AZee's morphs ask for.
+"""Face units that the body's makers left out and AZee's morphs ask for, and lids on eyes.
 
 They made one unit for the tongue, out, and puffed both cheeks at once. The others are drawn here
 on the same mesh: where the tongue is lifted, lowered or widened, where it presses into a cheek,
 and the muscle that a clenched jaw shows (the masseter, between cheekbone and corner of the jaw).
+
+Units that raise a cheek or narrow an eye draw skin straight through the ball of the eye, the more
+so together: a smile that reaches the eyes is three of them. Here it slides over the ball.
 """
 
 from __future__ import annotations
@@ -28,6 +31,12 @@ CHEEK = (0.72, -0.98, 0.1)
 MASSETER = (1.1, -1.12, -0.72)
 """From the middle between the eyes to the left, up and forward, in distances between the eyes."""
 CLENCH_M, CLENCH_RADIUS_M = 0.0055, 0.016
+
+SLIDING = ("cheekSquint", "eyeSquint", "mouthSmile", "noseSneer", "mh_mouth-corner-puller")
+"""Beginnings of the names of units that must not draw skin into an eye."""
+LID_M, ROUND_EYE_M = 0.004, 0.03
+"""Skin nearer to the ball than this comes no nearer; what is farther from its middle is not looked
+at."""
 
 
 def made_units(body: Body, eyes: Floats) -> Mapping[str, tuple[Ints, Floats]]:
@@ -65,6 +74,28 @@ def made_units(body: Body, eyes: Floats) -> Mapping[str, tuple[Ints, Floats]]:
         np.concatenate([moved for _, moved in clench]),
     )
     return units
+
+
+def over_eyes(body: Body, eyes: Floats) -> Mapping[str, tuple[Ints, Floats]]:
+    """Return the body's shapes, some of them bent round the eyes.
+
+    Each place of skin ends no nearer to the middle of the ball than it began. Sums of such moves
+    end outside too, for they add up along the tangent.
+    """
+    shapes = dict(body.shapes)
+    for name in [unit for unit in shapes if unit.startswith(SLIDING)]:
+        rows, moved = shapes[name]
+        at = body.vertices[rows]
+        for eye, ball in zip(eyes, ("helper-l-eye", "helper-r-eye"), strict=True):
+            surface = body.vertices[body.vertices_of(ball)]
+            radius = float(np.linalg.norm(surface - eye, axis=1).max())
+            before = np.linalg.norm(at - eye, axis=1)
+            least = np.where(before < ROUND_EYE_M, np.minimum(before, radius + LID_M), 0.0)
+            after = np.linalg.norm(at + moved - eye, axis=1)
+            out = np.maximum(after, least) / after
+            moved = eye + (at + moved - eye) * out[:, None] - at
+        shapes[name] = rows, moved
+    return shapes
 
 
 def _place(eyes: Floats, steps: tuple[float, float, float], sign: float) -> Floats:

@@ -175,7 +175,7 @@ class Diagnosis:
     # Others -----------------------------------------------------------------------------------
 
     def _others(self, i: int) -> str:
-        alone = self._alone(self.firm, [i])
+        alone = self._alone(replace(self.firm, presets={}), [i])
         if alone.missed():
             return f"the body is in the way: {self._touching(alone)}"
         rivals = self._rivals(i)

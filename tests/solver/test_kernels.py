@@ -352,7 +352,7 @@ def brute_overlaps(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> NDArra
     b = np.einsum("kij,kj->ki", R, capsules.b) + o
     i, j = pairs.T
     gap = capsules.radius[i] + capsules.radius[j] - segment_distance(a[i], b[i], a[j], b[j])
-    return np.maximum(gap, 0.0)
+    return np.asarray(np.maximum(gap, 0.0))
 
 
 @pytest.mark.parametrize("seed", range(3))

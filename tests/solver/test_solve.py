@@ -25,6 +25,7 @@ from azee_solver.constraint import (
     Relation,
     Rotate,
 )
+from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import (
     Between,
     Bone,
@@ -35,6 +36,7 @@ from azee_solver.geometry import (
     Nrm,
     Opp,
     Rotated,
+    Scale,
     Side,
     SigningSpace,
     Site,
@@ -42,6 +44,7 @@ from azee_solver.geometry import (
     Towards,
     VDiff,
     Vec,
+    VSum,
     VTranslate,
     WorldPoint,
 )
@@ -317,6 +320,25 @@ def test_coordinates_that_are_held_are_said_to_be() -> None:
         Morph("index_bend", S, 0.5), fixed=frozenset({RIG.coordinates.index["index_R_1.flexion"]})
     )
     assert reason(morph) == "index_R_1.flexion is held fixed"
+
+
+def test_coordinates_that_a_morph_fixes_are_named() -> None:
+    """The fingertip must come in front of its own palm, and the finger is held straight."""
+    q = np.array(IDLE)
+    for joint, angle in ((1, 1.0), (2, 0.9), (3, 0.6)):
+        q[RIG.coordinates.index[f"index_R_{joint}.flexion"]] = angle
+    frames = RIG.chain.frames(q)
+    R = frames.rotations[RIG.bones["palm_R"].node]
+    evaluator = Evaluator(RIG, Side.RIGHT)
+    tip, palm = (evaluator.site(Site(name, S), frames) for name in ("I_TIP", "PA"))
+    x, y, z = (R.T @ (tip - palm) / evaluator.scale).tolist()
+    across = Cross(Dir(PALM), Nrm(PALM))
+    there = VSum((Scale(across, x), Scale(Dir(PALM), y), Scale(Nrm(PALM), z)))
+    place = Place(Site("I_TIP", S), VTranslate(SitePoint(Site("PA", S)), there))
+    assert run(place).met
+    report = run(place, Morph("index_bend", S, 0.0), Morph("index_hook", S, 0.0))
+    assert reason(report).startswith("needs coordinates that morph index_bend_R fixes")
+    assert "morph index_hook_R" in reason(report)
 
 
 def test_an_undefined_direction_is_a_reason_and_spoils_nothing_else() -> None:

@@ -161,11 +161,13 @@ def compile_(
         show_json({"diagnostics": as_json(error.diagnostics), "outputs": [], "report": None})
         return FAULT
     if form == "json":
+        with watch.stage("the report"):
+            measured = made.report.as_json()
         show_json(
             {
                 "diagnostics": as_json(text.warnings),
                 "outputs": [str(path) for path in outputs],
-                "report": made.report.as_json(),
+                "report": measured,
                 **({"profile": watch.as_json()} if profile else {}),
             }
         )

@@ -134,7 +134,7 @@ def main(folder: Path) -> None:
         )
 
 
-def small(image: Image.Image, colours: int) -> Image.Image:
+def small(image: Image.Image, colours: int = 256) -> Image.Image:
     """Few colours: a third of the bytes, and lips stay red. 256 are dithered, 128 are not."""
     palette = image.quantize(colours, method=Image.Quantize.MAXCOVERAGE, kmeans=1)
     smooth = Image.Dither.FLOYDSTEINBERG if colours == 256 else Image.Dither.NONE

@@ -22,6 +22,7 @@ from azee.cli.fmt import fmt
 from azee.cli.lsp import lsp
 from azee.cli.render import render
 from azee.cli.repl import repl
+from azee.cli.retarget import retarget
 from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
@@ -44,6 +45,7 @@ azee.add_command(find)
 azee.add_command(lsp)
 azee.add_command(rules)
 azee.add_command(rig)
+azee.add_command(retarget)
 azee.add_command(repl)
 
 

@@ -48,7 +48,7 @@ def main(folder: Path, bodies: tuple[str, ...]) -> None:
             units = dict(zip(made.clip.units, made.clip.unit_weights[frame], strict=True))
             image = picture(rig, made.clip.coordinates[frame], view, units, SIZE)
             shown.append((f"{title}, {example}", image))
-    small(contact_sheet(shown, 3 + len(MOMENTS))).save(folder / "bodies.png", optimize=True)
+    small(contact_sheet(shown, 3 + len(MOMENTS)), 128).save(folder / "bodies.png", optimize=True)
 
 
 if __name__ == "__main__":

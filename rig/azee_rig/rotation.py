@@ -76,3 +76,15 @@ def part_turn(q: Floats, share: float) -> Floats:
     angle = share * np.arctan2(sine, q[..., :1])
     along = np.where(sine > 1e-12, np.sin(angle) / np.where(sine > 1e-12, sine, 1.0), share)
     return np.concatenate([np.cos(angle), along * q[..., 1:]], axis=-1)
+
+
+def rotation_vectors(R: Floats) -> Floats:
+    """Axis times angle of rotations (…, 3, 3), (…, 3); exact near 0, either sign at π."""
+    v = np.stack(
+        [R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1]],
+        axis=-1,
+    )
+    sine = np.linalg.norm(v, axis=-1, keepdims=True) / 2.0
+    cosine = (np.trace(R, axis1=-2, axis2=-1)[..., None] - 1.0) / 2.0
+    angle = np.arctan2(sine, cosine)
+    return np.asarray(v / 2.0 * np.where(sine > 1e-9, angle / np.maximum(sine, 1e-9), 1.0))

@@ -1,0 +1,100 @@
+"""`azee retarget`: motion of one body on another."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from azee.cli.body import load_body
+from azee.cli.console import DONE, news, working
+from azee.cli.outcome import size_of
+from azee.cli.outputs import check_outputs, with_suffix
+from azee.formats import CLIP_WRITERS
+from azee_grammar.diagnostic import AZeeError, Diagnostic
+
+if TYPE_CHECKING:
+    from azee.motion.measured import Measured
+    from azee.motion.retarget import Retargeted
+    from azee_rig.rig import Rig
+
+UNITS = ("m", "cm", "inch", "mm", "dm", "foot")
+KEPT_SHARE, KEPT_DEG = 0.03, 5.0
+"""Up to here, in arm lengths and degrees, hands count as where they were."""
+
+
+@click.command(short_help="Motion of one body on another.")
+@click.argument("file", metavar="FILE", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "outputs",
+    metavar="OUT",
+    multiple=True,
+    required=True,
+    type=click.Path(path_type=Path),
+    callback=with_suffix(*CLIP_WRITERS),
+    help=f"A file to write: {' '.join(CLIP_WRITERS)}. Repeatable.",
+)
+@click.option(
+    "--rig", metavar="R", default="signer", show_default=True, help="The body that is to move."
+)
+@click.option(
+    "--unit", type=click.Choice(UNITS), help="Of a BVH's lengths; by default it is guessed."
+)
+@click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
+def retarget(file: Path, outputs: Sequence[Path], rig: str, unit: str | None, quiet: bool) -> int:
+    """Play the motion of FILE, a BVH of any skeleton with arms or a clip (.npz), on a body.
+
+    Kept are: where the hands are from the middle of the shoulders, in arm lengths, how the palms
+    are turned, how fingers bend, how trunk and head turn. Legs and the way of the body are not.
+    """
+    from azee.clips import save_clip
+    from azee.motion.retarget import retarget as on_other_body
+
+    check_outputs(outputs)
+    body = load_body(rig)
+    source = _measured(file, unit)
+    with working("Retargeting …", quiet=quiet):
+        made = on_other_body(source, body)
+    for path in outputs:
+        save_clip(made.clip, body, path)
+    lines = [*source.notes, _kept(made, body)]
+    lines += [f"wrote {path} ({size_of(path)})" for path in outputs]
+    news("\n".join(lines), quiet=quiet)
+    return DONE
+
+
+def _measured(file: Path, unit: str | None) -> Measured:
+    """Read and measure. Raises: AZeeError: cannot-read, not-a-clip."""
+    from azee.clips import open_clip
+    from azee.motion.bvh import BvhError, read_bvh
+    from azee.motion.measured import RetargetError, measure_clip, measure_recording
+
+    if file.suffix.lower() != ".bvh":
+        opened = open_clip(file)
+        return measure_clip(opened.clip, opened.rig)
+    try:
+        return measure_recording(read_bvh(file, unit))
+    except (BvhError, RetargetError) as error:
+        raise AZeeError(Diagnostic("not-a-clip", f"`{file}`: {error}", None)) from error
+    except OSError as error:
+        reason = (error.strerror or type(error).__name__).lower()
+        raise AZeeError(
+            Diagnostic("cannot-read", f"cannot read `{file}`: {reason}", None)
+        ) from error
+
+
+def _kept(made: Retargeted, body: Rig) -> str:
+    share = made.wrist_m / body.landmarks.arm_m
+    off = (share > KEPT_SHARE) | (made.palm_rad > math.radians(KEPT_DEG))
+    frames = int(off.any(axis=1).sum())
+    if not frames:
+        return f"hands are where they were in all {len(off)} frames"
+    return (
+        f"hands are where they were in {len(off) - frames} of {len(off)} frames; in the others the "
+        f"body does not reach: up to {100 * float(share.max()):.0f} % of its arm's length and "
+        f"{math.degrees(float(made.palm_rad.max())):.0f}° off"
+    )

@@ -27,7 +27,7 @@ from rich.console import Console
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from benchmarks.ik import tables
-from benchmarks.ik.armature import bare_armature
+from benchmarks.ik.armature import bare_armature, pinned
 from benchmarks.ik.comparison import Row, compared
 from benchmarks.ik.elsewhere import BLENDER, PINOCCHIO, Environment, NotThere
 from benchmarks.ik.goals import Goal, goals_of
@@ -144,7 +144,7 @@ def compare(
     environments: Sequence[Environment],
 ) -> None:
     """Compare all methods on the bare armature and, those that can, on the signer."""
-    signer = load_rig()
+    signer = pinned(load_rig())
     with tempfile.TemporaryDirectory() as folder:
         other = {e.name: _caller(e, found, Path(folder)) for e in environments}
         bodies = {"armature": (bare_armature(signer), other), "signer": (signer, {})}
@@ -180,7 +180,7 @@ def read_signs(found: Findings, console: Console) -> None:
 
 def scale(found: Findings, console: Console, repeats: int) -> None:
     """Measure how time grows."""
-    rig = load_rig()
+    rig = pinned(load_rig())
     found.scaling = {
         "problems in a moment": list(by_problems(rig, repeats)),
         "moments": list(by_moments(rig)),

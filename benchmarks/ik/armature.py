@@ -6,7 +6,7 @@ axis, no couplings, no head, no helper joints, no skin and no capsules.
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -80,7 +80,7 @@ def bare_armature(body: Rig) -> Rig:
         if part_left_out(chain.names[site.node]):
             continue
         turn = at_zero.rotations[carrier].T
-        world = at_zero.positions[site.node] + at_zero.rotations[site.node] @ site.position
+        world = site.point(at_zero)
         given["sites"][site.name] = RigSite(
             site.name,
             kept[carrier],
@@ -91,6 +91,20 @@ def bare_armature(body: Rig) -> Rig:
     # What only skin needs is not there.
     everything: dict[str, Any] = {f.name: given.get(f.name) for f in fields(Rig)}
     return Rig(**everything)
+
+
+def pinned(body: Rig) -> Rig:
+    """Return a body whose sites are fixed in their nodes' frames, as at the zero pose.
+
+    Those near joints ride on several nodes, which other methods' residuals do not know.
+    """
+    at_zero = body.chain.frames(np.zeros(len(body.coordinates)))
+    sites = {}
+    for name, site in body.sites.items():
+        turn = at_zero.rotations[site.node].T
+        local = turn @ (site.point(at_zero) - at_zero.positions[site.node])
+        sites[name] = replace(site, position=local, normal=turn @ site.outward(at_zero), shares=())
+    return replace(body, sites=sites)
 
 
 def part_left_out(node: str) -> bool:

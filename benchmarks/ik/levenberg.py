@@ -118,6 +118,8 @@ def flat_row(
     rig: Rig, constraint: Constraint, dominant: Side
 ) -> tuple[int, int, Array, int, Array]:
     """Kind, node, point or direction in it, and the same of what it is compared with."""
+    if isinstance(constraint, Place) and rig.sites[constraint.site.key(dominant)].shares:
+        raise ValueError(f"{constraint.site.name} rides on several nodes: pin the body's sites")
     match constraint:
         case Place(site, WorldPoint(x, y, z)):
             own = rig.sites[site.key(dominant)]

@@ -13,8 +13,8 @@ from azee_rig.rig import Rig
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from benchmarks import solver_bench
-from benchmarks.ik.armature import bare_armature
-from benchmarks.ik.comparison import behind_best, compared, of_solvable
+from benchmarks.ik.armature import bare_armature, pinned
+from benchmarks.ik.comparison import behind_best, compared, of_solvable, row
 from benchmarks.ik.elsewhere import Environment, NotThere, ordered_steps
 from benchmarks.ik.goals import REACHABLE, Goal
 from benchmarks.ik.levenberg import Flat
@@ -41,12 +41,12 @@ def test_all_methods_answer_all_classes(tmp_path: Path, capsys: pytest.CaptureFi
     document = json.loads(out.read_text(encoding="utf-8"))
     rows = {(r["body"], r["class"], r["method"]): r for r in document["comparison"]}
     assert len(rows) == 7 * len(METHODS)
-    for (_, kind, method), row in rows.items():
-        assert row["median_s"] > 0
+    for (_, kind, method), found in rows.items():
+        assert found["median_s"] > 0
         if kind in REACHABLE and method.startswith(("ours", "LM")):
-            assert row["met_1mm_05deg"] == 1
+            assert found["met_1mm_05deg"] == 1
         if method.startswith("ours"):
-            assert row["limit_excess_deg"] == 0
+            assert found["limit_excess_deg"] == 0
     assert all(goal["kept"] in (True, False, None) for goal in document["goals"])
     table = capsys.readouterr().out
     assert "IK problems in" in table
@@ -54,7 +54,7 @@ def test_all_methods_answer_all_classes(tmp_path: Path, capsys: pytest.CaptureFi
 
 
 def test_problems_repeat_and_their_postures_solve_them(signer: Rig) -> None:
-    for rig in (bare_armature(signer), signer):
+    for rig in (bare_armature(signer), pinned(signer)):
         maker, evaluator = Maker(rig), Evaluator(rig, Side.RIGHT)
         for kind in REACHABLE:
             (first,), (again, _) = maker.problems(kind, 1), maker.problems(kind, 2)
@@ -69,9 +69,18 @@ def test_problems_repeat_and_their_postures_solve_them(signer: Rig) -> None:
 
 
 @pytest.mark.slow
+def test_the_yardstick_measures_what_the_rig_does(signer: Rig) -> None:
+    for rig in (bare_armature(signer), pinned(signer)):
+        (tree,) = Maker(rig).problems("tree", 1)
+        answer = METHODS["LM kernel"](rig, tree)
+        assert Flat(rig, tree.constraints, tree.free, TIGHT).worst(answer.q) <= 1
+        assert row("", rig, "", [tree], [answer]).met(TIGHT) == 1
+
+
+@pytest.mark.slow
 def test_the_yardstick_s_jacobian_is_that_of_its_residuals(signer: Rig) -> None:
     rng = np.random.default_rng(1)
-    for rig in (bare_armature(signer), signer):
+    for rig in (bare_armature(signer), pinned(signer)):
         (tree,) = Maker(rig).problems("tree", 1)
         flat = Flat(rig, tree.constraints, tree.free, TIGHT)
         q = rng.uniform(rig.coordinates.lower, rig.coordinates.upper)

@@ -14,7 +14,7 @@ import argparse
 import json
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -37,7 +37,7 @@ WITHIN = 0.98
 ALLOWED_DEG = {True: 2.0, False: 4.0}
 """Inside 98 % of reach, and beyond."""
 SEED = 7
-SPACE_M = np.array([[-0.45, -0.45, 0.1], [0.2, 0.35, 0.65]])
+SPACE_M = np.array([[-0.45, -0.45, 0.15], [0.2, 0.3, 0.65]])
 """Where lines begin and end, from the middle of the shoulders."""
 FORWARD = Vec(0.0, 0.0, 1.0)
 
@@ -102,8 +102,13 @@ def _limits(rig: Rig) -> tuple[Array, Array]:
 def line(rig: Rig, sweep: int) -> Iterator[Array]:
     """Yield the targets of a sweep (3,), a millimetre apart."""
     rng = np.random.default_rng((SEED, sweep))
-    start, other = rig.landmarks.shoulder_middle + rng.uniform(SPACE_M[0], SPACE_M[1], (2, 3))
-    way = (other - start) / np.linalg.norm(other - start)
+    low, high = rig.landmarks.shoulder_middle + SPACE_M
+    while True:
+        start, other = low + rng.random((2, 3)) * (high - low)
+        way = (other - start) / np.linalg.norm(other - start)
+        end = start + LENGTH_M * way
+        if np.all((end > low) & (end < high)):
+            break
     for k in range(int(LENGTH_M / STEP_M) + 1):
         yield start + k * STEP_M * way
 
@@ -114,15 +119,16 @@ def swept(rig: Rig, kind: str, sweep: int) -> Iterator[tuple[float, SolveReport]
     frames = rig.chain.frames(idle)
     shoulder = frames.positions[rig.bones["arm_R"].origin_node]
     reach = stretched_m(rig, "I_TIP_R" if kind == "fingertip" else "PA_R")
-    options = SolveOptions(explain=False)
-    start = idle
+    wide = SolveOptions(explain=False)
+    near = replace(wide, further_starts=0, patience=0)  # as along a controlled movement
+    start, options = idle, wide
     for target in line(rig, sweep):
         asked = kinds(WorldPoint(*target.tolist()))[kind]
         demands = [Demand(c, rank=i) for i, c in enumerate(asked)]
         report = solve(
-            rig, demands, dominant=Side.RIGHT, start=start, reference=start, options=options
+            rig, demands, dominant=Side.RIGHT, start=start, reference=idle, options=options
         )
-        start = report.coordinates
+        start, options = report.coordinates, near
         yield float(np.linalg.norm(target - shoulder)) / reach, report
 
 

@@ -33,7 +33,7 @@ class SolveOptions:
     descent_tolerance: float = 1e-2
     polish_rounds: int = 20
     polish_tolerance: float = 1e-4
-    finish_rounds: int = 60
+    finish_rounds: int = 250
     finish_tolerance: float = 1e-8
     further_starts: int = 6
     patience: int = 6

@@ -10,7 +10,7 @@ READY := $(ENV)/.ready
 PACKAGES := tests/node/node_modules/.package-lock.json
 TYPED := tests benchmarks examples
 
-.PHONY: help demo test check format bench bench-solver bench-blender fuzz examples films pictures wheel-test node
+.PHONY: motion-table help demo test check format bench bench-solver bench-blender fuzz examples films pictures wheel-test node
 
 help: ## what there is
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
@@ -60,6 +60,9 @@ pictures: $(READY) ## draw the pictures of the examples' folders and of the tuto
 	@$(RUN) docs/language/pictures.py
 	@$(RUN) docs/film_pictures.py
 	@$(RUN) docs/repl_pictures.py
+
+motion-table: $(READY) ## compare tracks with flattening on every example, into docs/motion.md
+	@$(RUN) docs/motion_table.py
 
 wheel-test: $(READY) node ## the fast tests against the built wheel, outside the checkout
 	@bash tests/project/wheel.sh $(RUN)

@@ -79,7 +79,7 @@ def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
     show_default=True,
     help="How postures are found; two-level: the iterations of the 2018 paper, for comparison.",
 )
-@click.option("--no-life", is_flag=True, help="No breathing and no blinking.")
+@click.option("--no-life", is_flag=True, help="No breathing, no blinking and no sway.")
 @click.option(
     "--report",
     metavar="R.json",

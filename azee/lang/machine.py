@@ -23,8 +23,9 @@ class Limits:
     steps: int = 1_000_000
     """Expressions evaluated and elements visited; applying a rule, leaving one with a mistake and
     laying out a block of a score count as `HEAVY` steps each, since that is what they take."""
-    size: int = 200_000
-    """Parts of one value, counted as a tree: what is used twice counts twice."""
+    size: int = 500_000
+    """Parts of one value, counted as a tree: what is used twice counts twice. A thousand signs of
+    two hands, half an hour of signing, have some 250,000."""
 
 
 DEFAULT_LIMITS = Limits()

@@ -14,7 +14,7 @@ from azee.motion.bound import Bound, bind
 from azee.motion.clip import Clip
 from azee.motion.face import RAMP_S, face_weights
 from azee.motion.flatten import flatten
-from azee.motion.idle import AFTER_S, BEFORE_S, BLINK, blinks, breathing
+from azee.motion.idle import AFTER_S, BEFORE_S, BLINK, blinks, breathing, swaying
 from azee.motion.keying import MODES, Keying, Mode
 from azee.motion.labels import labels
 from azee.motion.limbs import Limbs
@@ -67,7 +67,7 @@ def animate(
     """Make a body play a score.
 
     Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
-        blinks and breaths. life: whether there are any. solver: what solves key
+        blinks, breaths and sway. life: whether there are any. solver: what solves key
         postures; `azee_solver.solve` if none is given.
     Raises: BindingError: the rig lacks a bone, site or morph that the score names.
         ValueError: an unknown mode or a frame rate that is none.
@@ -97,6 +97,8 @@ def animate(
         np.clip(q, rig.coordinates.lower, rig.coordinates.upper, out=q)
         closing = rig.face_morphs.get(BLINK, {})
         weights += blinks(closing, units, bound.faces, frames, rng)
+        q = q + swaying(rig.coordinates, bound.moving, frames, rng)
+        np.clip(q, rig.coordinates.lower, rig.coordinates.upper, out=q)
     for unit, weight in rig.lid_weights(q).items():
         weights[:, units.index(unit)] += weight
     moving = np.flatnonzero(np.any(weights != 0.0, axis=0))

@@ -82,11 +82,17 @@ class BoundScore:
 
     @cached_property
     def sharing(self) -> dict[Bound, tuple[Bound, ...]]:
-        """For every skeletal morph, those that move the same coordinates meanwhile, itself too."""
+        """For every skeletal morph, those of the same hand meanwhile, itself too.
+
+        They add up where they move the same coordinates, and thumbs give way to fingers.
+        """
         morphs = [b for b in self.postures if isinstance(b.constraint, Morph)]
         spans = Spans((b.requirement.interval, b) for b in morphs)
         near = ((b, spans.meeting(b.requirement.interval)) for b in morphs)
-        return {b: tuple(o for o in others if o.moves & b.moves) for b, others in near}
+        return {
+            b: tuple(o for o in others if o.moves & b.moves or o.limb[-2:] == b.limb[-2:])
+            for b, others in near
+        }
 
     @cached_property
     def paths_at(self) -> Spans[Bound]:

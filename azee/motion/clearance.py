@@ -9,7 +9,7 @@ least squares on all depths along the way at once. Keys and times stay as they a
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TypeAlias
@@ -43,8 +43,11 @@ ABOUT_S = Fraction(1, 2)
 STEP_S = 1 / 50
 CHUNK = 240
 MOST_SAMPLES = 20
-STEPS, STRIDE_RAD = 16, 0.15
+STEPS, STRIDE_RAD = 40, 0.15
+DAMPING = 0.03
 PASSES = 4
+HASTY_S, UNHURRIED_S, LEAST_ROOM = 0.15, 0.45, 0.1
+"""A wide berth in a short time is a jerk: ways that long and shorter are only just clear."""
 TAPER = 0.35
 """Share of the way from an end in which what is near there comes apart."""
 BETTER = 0.7
@@ -144,9 +147,11 @@ class Clearing:
         times = np.linspace(start, end, count + 2)
         search = _Search(
             movement.sample(times),
-            _basis(base, times, len(movement.coordinates)),
+            np.concatenate([swerve.members for swerve in base]),
+            np.hstack([np.outer(s.share(times), np.ones(len(s.members))) for s in base]),
             self.overlaps,
             self.overlaps.reach(self.meant(start, end)),
+            float(np.clip((end - start - HASTY_S) / (UNHURRIED_S - HASTY_S), LEAST_ROOM, 1.0)),
             movement.coordinates.lower,
             movement.coordinates.upper,
         )
@@ -196,54 +201,41 @@ def _joined(ways: Mapping[_Gaps, tuple[float, float]]) -> dict[_Gaps, tuple[floa
     return out
 
 
-def _basis(swerves: Sequence[Swerve], times: Array, width: int) -> Array:
-    """Change of coordinates at times per unit of each swerve's change, (T, V, n)."""
-    out = []
-    for swerve in swerves:
-        share = swerve.share(times)
-        for v in swerve.members.tolist():
-            column = np.zeros((len(times), width))
-            column[:, v] = share
-            out.append(column)
-    return np.stack(out, axis=2)
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class _Search:
     """Damped least squares for the smallest change that parts all pairs along a way.
 
-    q: (T, V) the way as it is. basis: (T, V, n). What is near at an end of the way may be so
-    near beside it.
+    q: (T, V) the way as it is. members: (n,) coordinates that change. shares: (T, n) how much of
+    its change each has made. room: share of the wanted distance that there is the time for. What
+    is near at an end of the way may be so near beside it.
     """
 
     q: Array
-    basis: Array
+    members: NDArray[np.int64]
+    shares: Array
     overlaps: Overlaps
     reach: Array
+    room: float
     lower: Array
     upper: Array
 
     def least(self) -> Array | None:
         """Return the change, (n,) radians; none if it would hardly lessen the overlaps."""
-        n = self.basis.shape[2]
         depth = self.overlaps.depth(self.q, self.reach)
         nearer = depth.max(axis=0) - np.maximum(depth[0], depth[-1])
-        if not np.any((depth.max(axis=0) > -SEEN * self.overlaps.clear_m) & (nearer > LEAST_M)):
+        clear = self.overlaps.clear_m * self.room
+        if not np.any((depth.max(axis=0) > -SEEN * clear) & (nearer > LEAST_M)):
             return None
         pairs = np.flatnonzero(np.any(depth > -NEAR_M, axis=0))
-        clear = self.overlaps.clear_m[pairs]
-        ends = np.maximum(self.overlaps.depth(self.q[[0, -1]], self.reach, pairs), -clear)
-        along = np.linspace(0.0, 1.0, len(self.q))[:, None]
-        leaving = 1.0 - minimum_jerk(along / TAPER)
-        coming = 1.0 - minimum_jerk((1.0 - along) / TAPER)
-        wanted = np.maximum((ends[0] + clear) * leaving, (ends[1] + clear) * coming) - clear
-        c, damping = np.zeros(n), 30.0
+        wanted = self._wanted(depth[:, pairs], clear[pairs])
+        enough = LEFT * float(np.min(clear[pairs]))
+        c, damping = np.zeros(len(self.members)), DAMPING
         error, J = self._errors(c, pairs, wanted)
         began = float(np.max(error))
         for _ in range(STEPS):
-            if np.max(error) <= LEFT * float(np.min(clear)):
+            if np.max(error) <= enough:
                 break
-            lhs = J.T @ J + (WEIGHT_M**2 + damping * 1e-3) * np.eye(n)
+            lhs = J.T @ J + (WEIGHT_M**2 + damping) * np.eye(len(c))
             step = -np.linalg.solve(lhs, J.T @ error + WEIGHT_M**2 * c)
             step *= min(1.0, STRIDE_RAD / max(1e-9, float(np.max(np.abs(step)))))
             new, slope = self._errors(c + step, pairs, wanted)
@@ -251,23 +243,27 @@ class _Search:
                 c, error, J, damping = c + step, new, slope, damping / 3
             else:
                 damping *= 8
-                if damping > 1e3:
-                    break
         return c if float(np.max(error)) < BETTER * began else None
+
+    def _wanted(self, depth: Array, clear: Array) -> Array:
+        """Depths that pairs may have along the way, (T, P) metres."""
+        ends = np.maximum(depth[[0, -1]], -clear)
+        along = np.linspace(0.0, 1.0, len(self.q))[:, None]
+        leaving = 1.0 - minimum_jerk(along / TAPER)
+        coming = 1.0 - minimum_jerk((1.0 - along) / TAPER)
+        near = np.maximum((ends[0] + clear) * leaving, (ends[1] + clear) * coming)
+        return np.asarray(near - clear)
 
     def _errors(
         self, change: Array, pairs: NDArray[np.int64], wanted: Array
     ) -> tuple[Array, Array]:
-        """Depths beyond what is wanted after a change (n,), and their Jacobian.
-
-        Returns: (T · P,) metres and (T · P, n).
-        """
-        asked = self.q + self.basis @ change
+        """Depths beyond what is wanted after a change, (T · P,) metres, and slopes, (T · P, n)."""
+        asked = self.q.copy()
+        asked[:, self.members] += self.shares * change
         q = np.clip(asked, self.lower, self.upper)
-        members = np.flatnonzero(np.any(self.basis != 0.0, axis=(0, 2)))
-        depth, slope = self.overlaps.slopes(q, self.reach, pairs, members)
+        depth, slope = self.overlaps.slopes(q, self.reach, pairs, self.members)
         beyond = depth - wanted
         # A coordinate at its limit does not move, what is far enough does not count.
-        moving = (asked == q)[:, None, members] & (beyond > 0.0)[:, :, None]
-        J = np.einsum("tpv,tvn->tpn", np.where(moving, slope, 0.0), self.basis[:, members])
-        return np.maximum(beyond, 0.0).ravel(), J.reshape(-1, len(change))
+        moving = (asked == q)[:, None, self.members] & (beyond > 0.0)[..., None]
+        J = slope * self.shares[:, None, :] * moving
+        return np.maximum(beyond, 0.0).ravel(), J.reshape(beyond.size, -1)

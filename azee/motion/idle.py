@@ -1,4 +1,4 @@
-"""Unspoken life: blinks and breathing, low, seeded, and never on what a score constrains."""
+"""Unspoken life: blinks, breathing and sway, low, seeded, and never on what a score constrains."""
 
 from __future__ import annotations
 
@@ -30,6 +30,16 @@ BREATH_RAD: Mapping[str, float] = {
 }
 """Amplitude of one breath, in and out. It moves arms and head along, so it rests with them."""
 BREATH_FADE_S = 0.4
+
+SWAY_S = (5.9, 8.3)
+"""Two periods whose sum never repeats itself soon."""
+SWAY_RAD: Mapping[str, float] = {
+    "back_1.lateral": math.radians(0.3),
+    "back_1.axial": math.radians(0.25),
+    "head.axial": math.radians(0.5),
+    "neck.flexion": math.radians(0.3),
+}
+"""Amplitude of the shifting of weight of somebody who stands, and of a head that is held up."""
 
 
 def blinks(
@@ -73,6 +83,25 @@ def breathing(
     for name, amplitude in BREATH_RAD.items():
         if name in coordinates.index:
             out[:, coordinates.index[name]] = amplitude * wave
+    return out
+
+
+def swaying(
+    coordinates: Coordinates, required: Iterable[Bound], times_s: Array, rng: np.random.Generator
+) -> Array:
+    """Return what standing unsupported adds to coordinates at times, (T, V).
+
+    Args: required: as for `breathing`, and with the same fading.
+    """
+    out = np.zeros((len(times_s), len(coordinates)))
+    free = minimum_jerk(_away_s(required, times_s) / BREATH_FADE_S)
+    for name, amplitude in SWAY_RAD.items():
+        phases = rng.uniform(0.0, 2.0 * math.pi, len(SWAY_S))
+        if name in coordinates.index:
+            waves = (
+                np.sin(2.0 * math.pi * times_s / s + p) for s, p in zip(SWAY_S, phases, strict=True)
+            )
+            out[:, coordinates.index[name]] = amplitude * free * np.sum([*waves], axis=0) / 2.0
     return out
 
 

@@ -35,8 +35,9 @@ def tracks(
     """Return what every block keys, in the order of the score; in flat mode, one for the whole.
 
     Blocks that need the same hand or arm both have its track. Trunk and head, which link the
-    others, are only the track of their owner: of the blocks that need them, the one that began
-    first. Faces have no coordinates and no track; trills have one without keys.
+    others, are only the track of their owner: whoever speaks of them, else of the blocks that need
+    them the one that began first. Faces have no coordinates and no track; trills have one without
+    keys.
     """
     if keying.flat:
         keys = tuple(sorted({float(p.time) for p in postures}))
@@ -71,7 +72,8 @@ def tracks(
 
 def _owners(limb: str, users: Sequence[Bound]) -> Sequence[Bound]:
     """Return whose track a limb's key is."""
-    if limb not in LINKS:
-        return users
+    speaking = [b for b in users if b.limb == limb]
+    if limb not in LINKS or speaking:
+        return speaking if limb in LINKS else users
     order = sorted(users, key=lambda b: (b.requirement.interval.start, b.requirement.rank))
     return order[:1]

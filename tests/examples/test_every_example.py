@@ -23,6 +23,7 @@ from programs import Node, Python
 import azee
 from azee.cli.main import run
 from azee.formats import SUFFIXES
+from azee.motion.keying import MODES
 from azee_solver.penetration import mesh_penetration
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -149,6 +150,25 @@ def test_no_arm_enters_trunk_or_head_at_a_key_posture(source: Path) -> None:
         if p.body in ("trunk", "head") and p.depth_m > 3 * MILLIMETRE
     ]
     assert found == []
+
+
+@pytest.mark.slow
+@each
+def test_nothing_enters_the_body_in_any_frame_where_no_touch_is_meant(
+    source: Path, built: Path
+) -> None:
+    report = _document(_output(built, source, ".report.json"))
+    skin = (p for p in report["clip_penetration"] if p["on"] == "skin" and not p["intended"])
+    assert [p for p in skin if p["depth_m"] > 3 * MILLIMETRE] == []
+
+
+@pytest.mark.slow
+@each
+def test_tracks_are_never_rougher_than_flat(source: Path) -> None:
+    tracks, flat = (azee.compile(source, mode=mode, life=False).report for mode in MODES)
+    for of in ("acceleration", "jerk"):
+        rough = max(getattr(p, of) for p in flat.peaks)
+        assert max(getattr(p, of) for p in tracks.peaks) <= 1.001 * rough
 
 
 @pytest.mark.slow

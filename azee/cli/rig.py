@@ -14,15 +14,19 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from azee.cli.body import load_body
-from azee.cli.console import news, show_json
+from azee.cli.console import DONE, MISSED, news, show_json, working
 from azee.cli.outputs import check_outputs, with_suffix
 from azee.cli.rig_import import import_
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
+    from azee_rig.site_check import AtBind, OverRange
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Row = dict[str, Any]
+
+WORST = 10
+"""Sites that `azee rig check` lists."""
 
 rig_option = click.option(
     "--rig", "body", metavar="R", default="signer", show_default=True,
@@ -160,6 +164,62 @@ def morphs(body: str, form: str, picture: Path | None) -> None:
         show_json({"rig": loaded.name, "morphs": rows})
     elif not picture:
         _table(("morph", "moves", "description"), [_morph_line(row) for row in rows])
+
+
+@rig.command()
+@rig_option
+@format_option
+def check(body: str, form: str) -> int:
+    """Measure how true the sites are to the skin.
+
+    As the mesh was modelled: distance from the skin, side, bone, and whether normals look
+    outward. Over the range of every joint, its coordinates at their limits in every combination:
+    the ten sites that leave the skin farthest, negative where they sink.
+
+    Exit codes: 0 all is as it should be, 2 wrong use, 3 something is not.
+    """
+    from azee_rig.site_check import at_bind, over_range
+
+    loaded = load_body(body)
+    with working("measuring the sites over every joint"):
+        resting, ranged = at_bind(loaded), over_range(loaded)
+    wrong = [site.site for site in resting if site.faults]
+    astray = [site.site for site in ranged if not site.is_near]
+    if form == "json":
+        show_json(
+            {
+                "rig": loaded.name,
+                "at_bind": [_as_json(site) for site in resting],
+                "over_range": [_as_json(site) for site in ranged],
+            }
+        )
+        return MISSED if wrong or astray else DONE
+    off, apart = (max(getattr(s, what) for s in resting) for what in ("distance_m", "mirror_m"))
+    click.echo(
+        f"as modelled: {len(resting)} sites, at most {1000 * off:.1f} mm off the skin; "
+        f"left and right mirror each other within {1000 * apart:.1f} mm"
+    )
+    for site in resting:
+        for fault in site.faults:
+            click.echo(f"  {site.site}: {fault}")
+    click.echo("over the range of every joint, farthest off:")
+    _table(
+        ("site", "off mm", "where"),
+        [
+            (site.site, f"{1000 * site.distance_m:+.1f}",
+             ", ".join(f"{name} {_deg(angle)}°" for name, angle in site.at_rad.items()))
+            for site in ranged[:WORST]
+        ],
+    )  # fmt: skip
+    if astray:
+        click.echo(f"too far off: {', '.join(astray)}")
+    return MISSED if wrong or astray else DONE
+
+
+def _as_json(site: AtBind | OverRange) -> Row:
+    from dataclasses import asdict
+
+    return asdict(site)
 
 
 def _sites(loaded: Rig) -> Iterator[Row]:

@@ -16,7 +16,7 @@ from azee_rig.coordinates import Coordinates
 
 Floats = NDArray[np.float64]
 
-_SIDE = re.compile(r"(?<=_)[LR](?=_|$)", re.ASCII)
+_SIDE = re.compile(r"(?<=_)[LR](?=_|\.|$)", re.ASCII)
 _UNIT_SIDE = re.compile(r"Left|Right|(?<=-)(?:left|right)(?=-)", re.ASCII)
 _OTHER = {"L": "R", "R": "L", "Left": "Right", "Right": "Left", "left": "right", "right": "left"}
 SIDEWAYS = ("axial", "lateral")
@@ -31,11 +31,16 @@ def mirrored(coordinates: Coordinates, q: Floats) -> Floats:
     out = np.empty_like(q)
     for i, name in enumerate(coordinates.names):
         part, _, movement = name.partition(".")
-        other = _swapped(_SIDE, part)
+        other = other_side(part)
         turns = movement == "yaw" or (other == part and movement in SIDEWAYS)
         values = q[..., i]
         out[..., coordinates.index[f"{other}.{movement}"]] = -values if turns else values
     return out
+
+
+def other_side(name: str) -> str:
+    """Name of a bone, coordinate or site on the other side; one without a side is its own."""
+    return _swapped(_SIDE, name)
 
 
 def mirrored_units(units: Sequence[str]) -> tuple[str, ...]:

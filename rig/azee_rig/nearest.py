@@ -27,19 +27,23 @@ def nearest(vertices: Floats, triangles: Ints, points: Floats) -> Nearest:
     that of some other triangle ends.
     """
     corners = vertices[triangles]
-    middles = corners.mean(axis=1)
-    radii = np.linalg.norm(corners - middles[:, None], axis=2).max(axis=1)
+    middles = (corners[:, 0] + corners[:, 1] + corners[:, 2]) / 3.0
+    radii = np.max([_length(corners[:, k] - middles) for k in range(3)], axis=0)
     found = np.empty((len(points), 3))
     which = np.empty(len(points), dtype=np.int64)
     distances = np.empty(len(points))
     for i, point in enumerate(points):
-        away = np.linalg.norm(middles - point, axis=1)
+        away = _length(middles - point)
         tried = np.flatnonzero(away - radii <= (away + radii).min())
         on = closest_on_triangles(corners[tried], point)
-        lengths = np.linalg.norm(on - point, axis=1)
+        lengths = _length(on - point)
         best = int(lengths.argmin())
         found[i], which[i], distances[i] = on[best], tried[best], lengths[best]
     return Nearest(found, which, distances)
+
+
+def _length(v: Floats) -> Floats:
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", v, v)))
 
 
 def closest_on_triangles(corners: Floats, point: Floats) -> Floats:
@@ -61,7 +65,17 @@ def closest_on_triangles(corners: Floats, point: Floats) -> Floats:
         length = np.sum(edge * edge, axis=1)
         along = np.sum((point - start) * edge, axis=1) / np.where(length > 0.0, length, 1.0)
         on = start + np.clip(along, 0.0, 1.0)[:, None] * edge
-        off = np.linalg.norm(on - point, axis=1)
+        off = _length(on - point)
         nearer = off < least
         best[nearer], least = on[nearer], np.minimum(off, least)
     return np.where(inside[:, None], foot, best)
+
+
+def barycentric(corners: Floats, points: Floats) -> Floats:
+    """Shares (n, 3) of the corners (n, 3, 3) of triangles at points (n, 3) in their planes."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    normal = np.cross(b - a, c - a)
+    area = (normal * normal).sum(axis=1)
+    u = (np.cross(c - b, points - b) * normal).sum(axis=1) / area
+    v = (np.cross(a - c, points - c) * normal).sum(axis=1) / area
+    return np.stack([u, v, 1.0 - u - v], axis=1)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from azee_rig.build.anatomy import SIDES, Anatomy
 from azee_rig.build.clothes import smooth_step
 from azee_rig.build.piece import Piece
-from azee_rig.build.surface import barycentric
+from azee_rig.nearest import barycentric
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

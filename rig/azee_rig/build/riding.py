@@ -13,23 +13,19 @@ problem; it is damped towards the rigid site, and exact in the mesh's own postur
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_rig.build.surface import barycentric
 from azee_rig.chain import Chain, Frames
 from azee_rig.coordinates import Coordinates
 from azee_rig.mesh import BodyMesh
 from azee_rig.mirror import mirrored
-from azee_rig.nearest import nearest
+from azee_rig.patches import SkinPatches
 from azee_rig.rig import Rig, RigSite, SiteShare
-from azee_rig.skeleton import Pose
-from azee_rig.skin import skin
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 NEAR_M = 0.003
 """No further node is taken once no posture is farther off."""
@@ -61,67 +57,6 @@ def drawn_postures(coordinates: Coordinates) -> Floats:
     part = random.beta(TOWARDS_LIMITS, TOWARDS_LIMITS, (POSTURES, len(coordinates)))
     drawn = coordinates.lower + part * (coordinates.upper - coordinates.lower)
     return np.vstack([coordinates.bind, coordinates.idle, drawn, mirrored(coordinates, drawn)])
-
-
-@dataclass(frozen=True, eq=False)
-class SkinPatches:
-    """Triangles that carry points, (S, 3) corners, and the shares of their corners, (S, 3)."""
-
-    mesh: BodyMesh
-    corners: Ints
-    shares: Floats
-
-    @staticmethod
-    def under(points: Floats, mesh: BodyMesh) -> SkinPatches:
-        """Find the triangles nearest to points (S, 3) in the mesh's own posture."""
-        found = nearest(mesh.vertices, mesh.triangles, points)
-        corners = mesh.triangles[found.triangles]
-        return SkinPatches(mesh, corners, barycentric(mesh.vertices[corners], found.points))
-
-    def weights(self) -> Floats:
-        """Skin weight of every joint at each point, (S, J)."""
-        return np.asarray(
-            np.einsum("sc,scj->sj", self.shares, self.mesh.dense_weights[self.corners])
-        )
-
-    def posed(self, rig: Rig, postures: Floats) -> tuple[Floats, Floats]:
-        """Points (P, S, 3) in postures (P, V), and frames of the triangles there (P, S, 3, 3)."""
-        rows, index = np.unique(self.corners, return_inverse=True)
-        index = index.reshape(-1, 3)
-        part = replace(
-            self.mesh,
-            vertices=self.mesh.vertices[rows],
-            triangles=index,
-            parts=(),
-            colours=self.mesh.colours[rows],
-            joints=self.mesh.joints[rows],
-            weights=self.mesh.weights[rows],
-            units=(),
-            unit_start=np.zeros(1, dtype=np.int64),
-            unit_rows=np.empty(0, dtype=np.int64),
-            unit_deltas=np.empty((0, 3)),
-        )
-        poses = rig.pose(postures)
-        vertices = np.stack(
-            [
-                skin(part, rig.skeleton, Pose(root, rotations))
-                for root, rotations in zip(poses.root_translation, poses.rotations, strict=True)
-            ]
-        )
-        corners = vertices[:, index]
-        return np.einsum("sc,pscx->psx", self.shares, corners), _triangle_frames(corners)
-
-
-def _triangle_frames(corners: Floats) -> Floats:
-    """Columns along the first edge, in the plane, along the normal: (…, 3, 3) of (…, 3, 3)."""
-    edge, other = corners[..., 1, :] - corners[..., 0, :], corners[..., 2, :] - corners[..., 0, :]
-    normal = _unit(np.cross(edge, other))
-    edge = _unit(edge)
-    return np.stack([edge, np.cross(normal, edge), normal], axis=-1)
-
-
-def _unit(v: Floats) -> Floats:
-    return np.asarray(v / np.linalg.norm(v, axis=-1, keepdims=True))
 
 
 class _Fit:

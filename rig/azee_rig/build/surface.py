@@ -11,6 +11,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from azee_rig.mesh import BodyMesh
+from azee_rig.nearest import barycentric
 from azee_rig.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -64,13 +65,3 @@ class Surface:
         shares = barycentric(self.mesh.vertices[corners][None], places[found][None])[0]
         normal = shares @ self.mesh.normals[corners]
         return places[found], np.asarray(normal / np.linalg.norm(normal))
-
-
-def barycentric(corners: Floats, points: Floats) -> Floats:
-    """Shares (n, 3) of the corners (n, 3, 3) of triangles at points (n, 3) in their planes."""
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    normal = np.cross(b - a, c - a)
-    area = (normal * normal).sum(axis=1)
-    u = (np.cross(c - b, points - b) * normal).sum(axis=1) / area
-    v = (np.cross(a - c, points - c) * normal).sum(axis=1) / area
-    return np.stack([u, v, 1.0 - u - v], axis=1)

@@ -174,7 +174,7 @@ def _joints(rig: Rig, bone: str) -> set[int]:
     """Joints of a bone, with the helpers that carry the skin between it and its neighbours."""
     nodes = rig.bones[bone]
     own = (rig.drive.node >= nodes.origin_node) & (rig.drive.node <= nodes.node)
-    helper = rig.drive.half_of >= 0
+    helper = rig.drive.helper_of >= 0
     parents = rig.skeleton.parents
-    own |= helper & (own[rig.drive.half_of] | own[parents])
+    own |= helper & (own[rig.drive.helper_of] | own[parents])
     return set(np.flatnonzero(own).tolist())

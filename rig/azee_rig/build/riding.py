@@ -7,13 +7,17 @@ nodes of the chain: the site's own and the fewest others that bring it near enou
     p + R · position + Σ_k R_k · vector_k  ≈  the blended skin's place
 
 The sum is linear in position and vectors, so each choice of nodes is a small least-squares
-problem; it is damped towards the rigid site, and exact in the mesh's own posture.
+problem. It is damped towards the rigid site and exact in the mesh's own posture. To lie on the
+skin matters more than to lie on the same spot of it: misses along the skin count for less. The
+problem is solved again a few times with more weight on the postures that miss most, for it is the
+worst that counts (Lawson's algorithm, for the least maximum).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from itertools import combinations, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,13 +36,18 @@ NEAR_M = 0.003
 MOST = 3
 """Further nodes of a site, at most."""
 GAIN = 0.85
-"""A further node is taken only if it brings the worst posture nearer by so much."""
-DAMPING = 1e-5
+"""One more node is taken only if it brings the worst posture nearer by so much."""
+ALONG = 0.3
+"""What a miss along the skin counts against one away from it."""
+DAMPING = 1e-4
+ROUNDS = 4
 CARRIES = 0.005
 """Skin weight from which on a joint's nodes are tried."""
-SEED, POSTURES = 2018, 160
+SEED, POSTURES = 2018, 120
 TOWARDS_LIMITS = 0.6
 """Shape of the beta distribution that postures are drawn from: below 1, limits are likelier."""
+PAIRED = "arm_L.", "arm_R."
+"""The coordinates of a shoulder: their limits are tried in every combination."""
 
 
 def riding(rig: Rig, mesh: BodyMesh) -> dict[str, RigSite]:
@@ -52,11 +61,34 @@ def riding(rig: Rig, mesh: BodyMesh) -> dict[str, RigSite]:
 
 
 def drawn_postures(coordinates: Coordinates) -> Floats:
-    """Return postures (P, V): bind, idle, random ones that are often at limits, their mirrors."""
+    """Return postures (P, V) to fit over, the first of them bind.
+
+    Random ones that are often at limits, with their mirror images; and shoulders at the corners
+    of their range, where skin is hardest to follow.
+    """
     random = np.random.default_rng(SEED)
     part = random.beta(TOWARDS_LIMITS, TOWARDS_LIMITS, (POSTURES, len(coordinates)))
     drawn = coordinates.lower + part * (coordinates.upper - coordinates.lower)
-    return np.vstack([coordinates.bind, coordinates.idle, drawn, mirrored(coordinates, drawn)])
+    corners = []
+    for parts in product((0.0, 0.5, 1.0), repeat=3):
+        q = np.array(coordinates.idle)
+        for shoulder in PAIRED:
+            own = [i for i, name in enumerate(coordinates.names) if name.startswith(shoulder)]
+            low, high = coordinates.lower[own], coordinates.upper[own]
+            q[own] = low + parts[: len(own)] * (high - low)
+        corners.append(q)
+    return np.vstack(
+        [coordinates.bind, coordinates.idle, drawn, mirrored(coordinates, drawn), corners]
+    )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Found:
+    """Vectors (n, 3) for n nodes, the site's own first, and the worst miss of all postures."""
+
+    nodes: tuple[int, ...]
+    vectors: Floats
+    worst: float
 
 
 class _Fit:
@@ -67,98 +99,100 @@ class _Fit:
         postures = drawn_postures(rig.coordinates)
         self.frames = rig.chain.frames(postures)
         bind = Frames(self.frames.positions[0], self.frames.rotations[0])
-        self.points = np.array([site.point(bind) for site in sites])
-        patches = SkinPatches.under(self.points, mesh)
+        points = np.array([site.point(bind) for site in sites])
+        patches = SkinPatches.under(points, mesh)
         self.weights = patches.weights()
-        skins, turns = patches.posed(rig, postures)
+        skins, self.patches = patches.posed(rig, postures)
         # What the site is off its triangle at bind, it stays off.
-        turned = turns @ np.swapaxes(turns[:1], -1, -2)
-        off = (self.points - skins[0])[:, :, None]
-        self.skins = skins + (turned @ off)[..., 0]
+        turned = self.patches @ np.swapaxes(self.patches[:1], -1, -2)
+        self.skins = skins + (turned @ (points - skins[0])[:, :, None])[..., 0]
         normals = np.array([site.outward(bind) for site in sites])
         self.normals = (turned @ normals[:, :, None])[..., 0]
-        self.beside = _beside(rig.chain, rig)
+        self.beside = _beside(rig)
 
     def ridden(self, i: int, site: RigSite) -> RigSite:
         """Return site i with the shares of further nodes that it needs, if any."""
-        skins, nodes = self.skins[:, i], [site.node]
-        vectors = [site.position]
-        worst = self._worst(site.node, nodes, vectors, skins)
-        tried = self._candidates(i, site.node)
-        while worst > NEAR_M and len(nodes) <= MOST:
-            found = []
-            for node in tried:
-                if node not in nodes:
-                    fitted = self._fitted([*nodes, node], skins, site.position)
-                    off = self._worst(site.node, [*nodes, node], fitted, skins)
-                    found.append((off, node, fitted))
-            if not found:
+        wanted = self.skins[:, i] - self.frames.positions[:, site.node]
+        senses = self.patches[:, i] * (ALONG, ALONG, 1.0)
+        rigid = self.frames.rotations[:, site.node] @ site.position - wanted
+        best = _Found((site.node,), site.position[None], _worst(rigid, senses))
+        others = [node for node in self._candidates(i, site.node) if node != site.node]
+        for count in range(1, MOST + 1):
+            tried = [(site.node, *chosen) for chosen in combinations(others, count)]
+            if best.worst <= NEAR_M or not tried:
                 break
-            best = min(found, key=lambda f: f[0])
-            if best[0] > GAIN * worst:
-                break
-            worst, vectors = best[0], best[2]
-            nodes.append(best[1])
-        if len(nodes) == 1:
+            found = [self._fitted(nodes, wanted, senses, site.position) for nodes in tried]
+            least = min(found, key=lambda one: one.worst)
+            if least.worst < GAIN * best.worst:
+                best = least
+        if len(best.nodes) == 1:
             return site
-        normals = self._solved(nodes, self.normals[:, i], site.normal)
+        alike = np.broadcast_to(np.eye(3), senses.shape)
+        normals = self._fitted(best.nodes, self.normals[:, i], alike, site.normal).vectors
         return replace(
             site,
-            position=vectors[0],
+            position=best.vectors[0],
             normal=normals[0],
-            shares=tuple(map(SiteShare, nodes[1:], vectors[1:], normals[1:])),
+            shares=tuple(map(SiteShare, best.nodes[1:], best.vectors[1:], normals[1:])),
         )
 
     def _candidates(self, i: int, own: int) -> list[int]:
         """Nodes of the joints that carry the skin there, and nodes beside them."""
-        drive, turned = self.rig.drive, self.beside
+        drive = self.rig.drive
         carrying = []
         for j in np.flatnonzero(self.weights[i] > CARRIES):
             driven = drive.helper_of[j] if drive.helper_of[j] >= 0 else j
             if drive.node[driven] >= 0:
                 carrying.append(int(drive.node[driven]))
-        known = set[int]().union(*(self._owned(node) for node in (own, *carrying)))
-        near = [node for node, coordinates in turned.items() if coordinates <= known]
+        known = set[int]().union(*(_turning(self.chain, node) for node in (own, *carrying)))
+        near = [node for node, coordinates in self.beside.items() if coordinates <= known]
         return list(dict.fromkeys([*carrying, *near]))
 
-    def _owned(self, node: int) -> set[int]:
-        return _owned(self.chain, node)
+    def _fitted(
+        self, nodes: tuple[int, ...], wanted: Floats, senses: Floats, rigid: Floats
+    ) -> _Found:
+        """Fit one vector per node, so that their turned sum is what is wanted, (P, 3).
 
-    def _worst(
-        self, own: int, nodes: Sequence[int], vectors: Sequence[Floats], skins: Floats
-    ) -> float:
-        place = self.frames.positions[:, own] + sum(
-            self.frames.rotations[:, node] @ vector
-            for node, vector in zip(nodes, vectors, strict=True)
-        )
-        return float(np.linalg.norm(place - skins, axis=1).max())
-
-    def _fitted(self, nodes: Sequence[int], skins: Floats, rigid: Floats) -> list[Floats]:
-        wanted = skins - self.frames.positions[:, nodes[0]]
-        return self._solved(nodes, wanted, rigid)
-
-    def _solved(self, nodes: Sequence[int], wanted: Floats, rigid: Floats) -> list[Floats]:
-        """Vectors per node whose turned sum is nearest to what is wanted (P, 3), exact at bind."""
+        Args: senses: (P, 3, 3) columns along which misses are measured, as long as they count.
+        rigid: (3,) what the first node alone would take.
+        """
         rotations = self.frames.rotations[:, nodes]
-        columns = rotations.transpose(0, 2, 1, 3).reshape(len(wanted) * 3, -1)
-        prior = np.zeros(columns.shape[1])
-        prior[:3] = rigid
-        left = wanted.reshape(-1) - columns @ prior
-        normal = columns.T @ columns / len(wanted) + DAMPING * np.eye(len(prior))
-        vectors = (prior + np.linalg.solve(normal, columns.T @ left / len(wanted))).reshape(-1, 3)
-        at_bind = wanted[0] - (rotations[0] @ vectors[:, :, None])[..., 0].sum(axis=0)
-        vectors[0] += rotations[0, 0].T @ at_bind
-        return list(vectors)
+        columns = np.einsum("pxa,pnxb->panb", senses, rotations).reshape(3 * len(wanted), -1)
+        start = np.zeros(columns.shape[1])
+        start[:3] = rigid
+        left = np.einsum("pxa,px->pa", senses, wanted).ravel() - columns @ start
+        weights = np.ones(len(wanted))
+        found: _Found | None = None
+        for _ in range(ROUNDS):
+            weighted = columns * np.repeat(weights / weights.sum(), 3)[:, None]
+            normal = weighted.T @ columns + DAMPING * np.eye(len(start))
+            vectors = (start + np.linalg.solve(normal, weighted.T @ left)).reshape(-1, 3)
+            turned = (rotations @ vectors[:, :, None])[..., 0].sum(axis=1)
+            at_bind = wanted[0] - turned[0]
+            vectors[0] += rotations[0, 0].T @ at_bind
+            missed = turned + rotations[:, 0] @ (rotations[0, 0].T @ at_bind) - wanted
+            off = np.linalg.norm(np.einsum("pxa,px->pa", senses, missed), axis=1)
+            if found is None or off.max() < found.worst:
+                found = _Found(nodes, vectors, float(off.max()))
+            weights *= off / max(off.max(), 1e-12) + 0.01
+        assert found is not None
+        return found
 
 
-def _beside(chain: Chain, rig: Rig) -> Mapping[int, set[int]]:
+def _worst(missed: Floats, senses: Floats) -> float:
+    return float(np.linalg.norm(np.einsum("pxa,px->pa", senses, missed), axis=1).max())
+
+
+def _beside(rig: Rig) -> Mapping[int, set[int]]:
     """Nodes that are no bone's, with the coordinates that turn them against their parents."""
     bones = {
         node for nodes in rig.bones.values() for node in range(nodes.origin_node, nodes.node + 1)
     }
-    return {n: _owned(chain, n) for n in range(len(chain.names)) if n not in bones}
+    others = set(range(len(rig.chain.names))) - bones
+    return {node: _turning(rig.chain, node) for node in sorted(others)}
 
 
-def _owned(chain: Chain, node: int) -> set[int]:
+def _turning(chain: Chain, node: int) -> set[int]:
+    """Coordinates that turn a node against its parent."""
     run = slice(chain.dof_start[node], chain.dof_start[node + 1])
     return set(chain.dof_coordinate[run].tolist())

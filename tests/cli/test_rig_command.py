@@ -15,6 +15,7 @@ from PIL import Image
 from azee.cli.main import run
 from azee_grammar.vocabulary import BONES, MORPHS, SITES
 from azee_rig.rig import Rig
+from azee_rig.site_check import AtBind, OverRange
 
 LISTS = ("sites", "bones", "limits", "coordinates", "morphs")
 
@@ -67,6 +68,32 @@ def test_a_picture_is_written(what: str, tmp_path: Path) -> None:
     with Image.open(target) as image:
         assert min(image.size) > 500
         assert len(set(image.convert("L").get_flattened_data())) > 100
+
+
+@pytest.mark.slow
+def test_the_check_finds_the_signer_s_sites_on_its_skin(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert run(["rig", "check", "--format", "json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    jsonschema.validate(document, schema("rig"))
+    assert {row["site"] for row in document["at_bind"]} == set(SITES)
+    assert {row["site"] for row in document["over_range"]} == set(SITES)
+
+
+def test_the_check_lists_ten_and_tells_what_is_wrong(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bad = AtBind("CH", 0.004, -0.2, 1.0, 1.0, 0.0)
+    monkeypatch.setattr("azee_rig.site_check.at_bind", lambda rig: (bad,))
+    ranged = tuple(OverRange(site, -0.0072, {"head.flexion": 0.5}) for site in list(SITES)[:12])
+    monkeypatch.setattr("azee_rig.site_check.over_range", lambda rig: ranged)
+    assert run(["rig", "check"]) == 3
+    out = capsys.readouterr().out
+    assert "CH: 4.0 mm off the skin" in out
+    assert "CH: its normal does not look outward" in out
+    assert out.count("head.flexion 28.6°") == 10
+    assert f"too far off: {', '.join(list(SITES)[:12])}" in out
 
 
 def test_what_cannot_be_drawn_or_written_is_refused(

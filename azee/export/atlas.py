@@ -30,7 +30,7 @@ AXIS_COLOURS = ((200, 60, 50), (40, 150, 60), (50, 90, 210))
 HAND = ("palm", "thumb", "index", "middle", "ring", "little")
 SITE_VIEWS: Mapping[str, Sequence[str]] = {
     "body": ("front", "back", "side"),
-    "head": ("face", "face side", "head left", "head back"),
+    "head": ("face", "face side", "head left"),
     "hand": tuple(f"right hand {side}" for side in ("palm", "back", "thumb", "little", "tips")),
 }
 """Views that share the sites of a region among them: each is labelled where it is seen best."""

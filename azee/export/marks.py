@@ -95,6 +95,8 @@ class View:
 
 def _spread(wanted: Floats, apart: float, height: int) -> Floats:
     """Rows (n,) near the wanted ones, in their order, apart from each other and in the picture."""
+    if not len(wanted):
+        return wanted
     order = np.argsort(wanted, kind="stable")
     steps = apart * np.arange(len(wanted))
     # Apart means that rows less their steps do not fall: the nearest such, by pooling neighbours.

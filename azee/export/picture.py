@@ -54,7 +54,6 @@ VIEWS: Mapping[str, tuple[str, tuple[float, float, float], float]] = {
     "face three-quarter": ("face", (-0.7, 0.05, 0.8), 0.165),
     "face side": ("face", (-1.0, 0.0, 0.0), 0.165),
     "head left": ("face", (1.0, 0.0, 0.0), 0.165),
-    "head back": ("face", (0.0, 0.03, -1.0), 0.165),
     "right hand": ("palm_R", (0.0, 0.1, 1.0), 0.14),
     "left hand": ("palm_L", (0.0, 0.1, 1.0), 0.14),
 }

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from azee.export.atlas import bone_sheet, morph_sheet
+from azee.export.atlas import SITE_VIEWS, bone_sheet, morph_sheet, site_panels
 from azee.export.picture import (
     Camera,
     camera,
@@ -131,6 +131,11 @@ def main(folder: Path) -> None:
     ):
         small(sheet(rig), 128 if name == "morphs" else 256).save(
             folder / f"{name}.png", optimize=True
+        )
+    for region in SITE_VIEWS:
+        panels = contact_sheet(site_panels(rig, region), 3)
+        panels.quantize(128, method=Image.Quantize.MAXCOVERAGE).save(
+            folder / f"sites-{region}.png", optimize=True
         )
 
 

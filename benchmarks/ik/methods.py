@@ -112,7 +112,8 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
             best, worst = x, ratio
         if worst <= 1.0:
             break
-    best = program.polish(best, rounds=FULL.finish_rounds, tolerance=FULL.finish_tolerance)
+    rounds = FULL.finish_work // len(best)
+    best = program.polish(best, rounds=rounds, tolerance=FULL.finish_tolerance)
     seconds = clock.seconds()
     q = idle
     q[free] = best

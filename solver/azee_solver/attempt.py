@@ -260,7 +260,9 @@ class _Attempt:
                 x, max_evaluations=options.max_evaluations, tolerance=options.finish_tolerance
             )
         overlap *= FIRM
-        x = program.polish(x, rounds=options.finish_rounds, tolerance=options.finish_tolerance)
+        x = program.polish(
+            x, rounds=options.finish_work // max(len(x), 1), tolerance=options.finish_tolerance
+        )
         weights[:], overlap[:] = kept, soft
         finished = self._measure(x)
         if not finished.lost() and _excess(finished, options) <= _excess(result, options):

@@ -56,6 +56,14 @@ class _Balls:
 
 def broad_phase(rig: Rig, pairs: Ints, reach: Array) -> BroadPhase:
     """Sort pairs (P, 2) with their reaches (P,) into runs."""
+    return _broad_phase(rig, pairs.tobytes(), reach.tobytes())
+
+
+@lru_cache(maxsize=256)
+def _broad_phase(rig: Rig, pair_bytes: bytes, reach_bytes: bytes) -> BroadPhase:
+    """Do so once for every problem that comes again, as those of a movement do."""
+    pairs = np.frombuffer(pair_bytes, dtype=np.int64).reshape(-1, 2)
+    reach = np.frombuffer(reach_bytes, dtype=np.float64)
     balls = _balls(rig)
     count = len(balls.node)
     one, other = np.sort(balls.of[pairs], axis=1).T

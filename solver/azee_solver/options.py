@@ -15,13 +15,13 @@ class SolveOptions:
     tolerance: what counts as met. A miss by it costs 1 in the objective, beside which stand
     posture: per squared radian away from the reference, times the coordinate's squared stiffness;
     comfort: per squared part of a half range beyond 80 % of it; overlap: per squared metre that
-    two capsules overlap, 0 to let bodies pass through each other; overlap_m: what is tolerated
-    of that. max_evaluations and descent_tolerance end one descent of NLopt's, polish_rounds and
-    polish_tolerance the Gauss-Newton steps after it, finish_rounds and finish_tolerance those
-    that the best of all descents ends with. further_starts: of the Halton sequence. patience: so
-    many descents in a row that gain nothing end the search; twice as many if no wider problem can
-    take over. explain: find out why what misses misses, by solving smaller problems. fixed:
-    coordinates that must not move from the start.
+    two capsules overlap, 0 to let bodies pass through each other; overlap_m: what is tolerated of
+    that. max_evaluations and descent_tolerance end one descent of NLopt's, polish_rounds and
+    polish_tolerance the Gauss-Newton steps after it, finish_work (steps times coordinates) and
+    finish_tolerance those that the best of all descents ends with. further_starts: of the Halton
+    sequence. patience: so many descents in a row that gain nothing end the search; twice as many
+    if no wider problem can take over. explain: find out why what misses misses, by solving
+    smaller problems. fixed: coordinates that must not move from the start.
     """
 
     tolerance: Tolerance = field(default_factory=lambda: Tolerance(1e-3, math.radians(0.5)))
@@ -33,7 +33,7 @@ class SolveOptions:
     descent_tolerance: float = 1e-2
     polish_rounds: int = 20
     polish_tolerance: float = 1e-4
-    finish_rounds: int = 250
+    finish_work: int = 2500
     finish_tolerance: float = 1e-8
     further_starts: int = 6
     patience: int = 6

@@ -137,7 +137,7 @@ class _Reader:
         def seen(points: Floats) -> Floats:
             return np.asarray(np.einsum("tba,tsb->tsa", chest, points - middle[:, None]))
 
-        palms = np.stack([self._palm(s, chest) for s in SIDES], axis=1)
+        palms = np.stack([self._palm(s) for s in SIDES], axis=1)
         self.notes.append("where the body goes and how its legs move is left out")
         return Measured(
             times=self.recording.times,
@@ -169,7 +169,7 @@ class _Reader:
         left = _unit(left - up * (left @ up))
         return np.stack([left, up, np.cross(left, up)], axis=-1)
 
-    def _palm(self, side: str, chest: Floats) -> Floats:
+    def _palm(self, side: str) -> Floats:
         """Columns x, dir, nrm of a palm, (T, 3, 3): by knuckles, else by the hand's rotation."""
         wrist = self.at(f"palm_{side}")
         there = [f"{f}_{side}_1" for f in FINGERS if f"{f}_{side}_1" in self.bones.bones]
@@ -180,14 +180,16 @@ class _Reader:
             across = sign * (self.at(there[-1]) - self.at(there[0]))
             along = _unit(tip - wrist)
             return _frames(along, np.cross(across, along))
-        self.notes.append(f"no fingers on side {side}: the palm is taken to face down in a T-pose")
-        hand = self.index[self.bones.bones[f"palm_{side}"][0]]
-        still = self.recording.skeleton.rest_positions
-        elbow = self.index[self.bones.bones[f"f_arm_{side}"][0]]
-        along = still[hand] - still[elbow]
-        down = -chest[0][:, 1]
-        rest = _frames(_unit(along)[None], down[None])[0]
-        return np.asarray(self.turned[:, hand] @ rest)
+        self.notes.append(
+            f"no fingers on side {side}: its palm is taken to face inward where the arm hangs, and "
+            "down where it is held out"
+        )
+        hand, elbow = self._joint(f"palm_{side}"), self._joint(f"f_arm_{side}")
+        along = _unit(self.still[hand] - self.still[elbow])
+        x, y, _ = np.abs(self.axes.T @ along)
+        facing = self.axes @ np.array([-sign * y, -x - 0.1, 0.0])
+        held = _frames(along[None], facing[None])[0]
+        return np.asarray(self.turned[:, hand] @ self.turned_still[hand].T @ held)
 
     def _trunk(self) -> dict[str, Floats]:
         """Angles of back, neck and head."""

@@ -33,7 +33,12 @@ ARM = (
 """Coordinates of an arm."""
 WRIST_M, PALM_RAD, ELBOW_M, KEPT_RAD = 0.004, np.radians(1.0), 0.15, np.radians(60.0)
 """What weighs as much as each other: off in place, in turn, at the elbow, from the wish."""
+HASTE_RAD = np.radians(1.0)
+"""A turn from one frame to the next that weighs as much, where there is a choice of ways."""
+PRONATION = ARM.index("f_arm_{S}.pronation")
 SWEEPS, STEP_RAD = 40, 1e-6
+FASTEST_RAD_S = 15.0
+"""Faster turns of a joint than in any signing are jumps."""
 SMOOTH_S = 0.15
 """Half the window over which the way of the first solution is smoothed."""
 
@@ -60,7 +65,8 @@ def retarget(source: Measured, rig: Rig) -> Retargeted:
     fit = _Arms(rig, source, q)
     first = fit.solved(q, q)
     wish = _smoothed(first, source.times)
-    found = fit.solved(wish, wish)
+    found = fit.steadiest([fit.solved(start, wish) for start in fit.starts(wish)], wish)
+    found = _eased(found, source.times)
     wrist, palm = fit.off(found)
     names, weights = source.units
     known = [i for i, name in enumerate(names) if name in rig.units]
@@ -125,6 +131,43 @@ class _Arms:
                 break
         return q
 
+    def starts(self, q: Floats) -> list[Floats]:
+        """Postures (T, V) to start from: those given, and forearms turned out and in.
+
+        Where a palm is turned further than the forearm goes, both its limits are as good.
+        """
+        c = self.rig.coordinates
+        found = [q]
+        for share in (0.2, 0.8):
+            turned = q.copy()
+            for columns in self.columns:
+                v = columns[PRONATION]
+                turned[:, v] = c.lower[v] + share * (c.upper[v] - c.lower[v])
+            found.append(turned)
+        return found
+
+    def steadiest(self, ways: Sequence[Floats], wish: Floats) -> Floats:
+        """Of several ways (T, V), per arm, the one with the least sum of misses and haste.
+
+        It may change between them where they are near each other: a shortest path over frames.
+        """
+        out = ways[0].copy()
+        cost = np.stack([self._residual(q, wish)[0] for q in ways])
+        for s, columns in enumerate(self.columns):
+            q = np.stack([way[:, columns] for way in ways])
+            best = cost[:, :, s].copy()
+            came = np.zeros(best.shape, np.int64)
+            for t in range(1, best.shape[1]):
+                haste = ((q[:, None, t - 1] - q[None, :, t]) / HASTE_RAD) ** 2
+                total = best[:, None, t - 1] + haste.sum(axis=-1)
+                came[:, t] = total.argmin(axis=0)
+                best[:, t] += total.min(axis=0)
+            way = int(best[:, -1].argmin())
+            for t in range(best.shape[1] - 1, -1, -1):
+                out[t, columns] = q[way, t]
+                way = int(came[way, t])
+        return out
+
     def off(self, q: Floats) -> tuple[Floats, Floats]:
         """How far wrists and palms are off, (T, 2) each."""
         at = self.chain.frames(q)
@@ -177,6 +220,18 @@ def _only(chain: Chain, wanted: Sequence[int]) -> tuple[Chain, dict[int, int]]:
         dof_coordinate=chain.dof_coordinate[dofs],
     )
     return part, number
+
+
+def _eased(q: Floats, times: Floats) -> Floats:
+    """Spread over some frames what no joint does in one, such as a forearm from limit to limit."""
+    if len(times) < 3:
+        return q
+    step = float(times[1] - times[0])
+    half = max(1, int(SMOOTH_S / step))
+    fast = np.abs(np.diff(q, axis=0, prepend=q[:1])) > FASTEST_RAD_S * step
+    near = np.stack([np.convolve(f, np.ones(2 * half + 1), mode="same") > 0 for f in fast.T], 1)
+    share = _smoothed(near.astype(np.float64), times)
+    return np.asarray(q + share * (_smoothed(q, times) - q))
 
 
 def _smoothed(q: Floats, times: Floats) -> Floats:

@@ -51,7 +51,8 @@ class Amending:
         for free in self._widening(one, asking, begun):
             fixed = self._all_but(free)
             report = self.solver(demands, start=q, reference=q, search=Search.NEAR, fixed=fixed)
-            if report.met:
+            standing = self._standing(one, asking, free)
+            if all(c.met or c.demand.rank in standing for c in report.constraints):
                 return report
         assert report is not None
         lost = {c.demand.constraint for c in report.constraints if not c.met}
@@ -76,6 +77,17 @@ class Amending:
             if free != before:
                 yield free
             before = free
+
+    def _standing(
+        self, one: Instants, asking: Sequence[Bound], free: frozenset[str]
+    ) -> frozenset[int]:
+        """Ranks of what is right enough and does not move.
+
+        On the way a site may be two millimetres off its path, for which the solver would not stop.
+        """
+        return frozenset(
+            b.requirement.rank for b in asking if not b.limbs & free and not self._missed(b, one)
+        )
 
     def _missed(self, bound: Bound, one: Instants) -> bool:
         residual = float(self.gauge.residual(bound, one)[0])

@@ -21,7 +21,7 @@ from azee_solver.parting import Parting
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-CLEAR_M, FINGERS_CLEAR_M = 0.007, 0.0005
+CLEAR_M, FINGERS_CLEAR_M = 0.01, 0.0005
 """Fingers of one hand lie side by side; everything else keeps a little away."""
 
 

@@ -12,6 +12,7 @@ from azee.formats import CLIP_WRITERS, writing
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
+    from azee.motion.bvh import Recording
     from azee.motion.clip import Clip
     from azee_rig.rig import Rig
 
@@ -78,8 +79,7 @@ def _recorded(path: Path, rig: Rig | None) -> OpenClip:
         raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
     body = rig or load_rig(SHIPPED)
     if not is_own(recording, body):
-        message = f"`{path}` moves another skeleton than that of `{body.name}`"
-        raise AZeeError(_no_clip(message, "name the body that it moves with --rig"))
+        return _carried_over(path, recording, body)
     clip, lost_rad = own_clip(recording, body)
     notes: Sequence[str] = ()
     if lost_rad > LOST_RAD:
@@ -87,6 +87,20 @@ def _recorded(path: Path, rig: Rig | None) -> OpenClip:
             f"the body cannot do all of it: joints are up to {math.degrees(lost_rad):.1f}° off",
         )
     return OpenClip(clip, body, tuple(notes))
+
+
+def _carried_over(path: Path, recording: Recording, body: Rig) -> OpenClip:
+    """Play the motion of another skeleton on a body. Raises: AZeeError: not-a-clip."""
+    from azee.motion.measured import RetargetError, measure_recording
+    from azee.motion.retarget import retarget
+
+    try:
+        source = measure_recording(recording)
+    except RetargetError as error:
+        raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
+    made = retarget(source, body)
+    note = f"another skeleton's motion, carried over to `{body.name}`: {made.kept(body)}"
+    return OpenClip(made.clip, body, (*source.notes, note))
 
 
 def _no_clip(message: str, remedy: str | None = None) -> Diagnostic:

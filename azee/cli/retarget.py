@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,12 +17,8 @@ from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
     from azee.motion.measured import Measured
-    from azee.motion.retarget import Retargeted
-    from azee_rig.rig import Rig
 
 UNITS = ("m", "cm", "inch", "mm", "dm", "foot")
-KEPT_SHARE, KEPT_DEG = 0.03, 5.0
-"""Up to here, in arm lengths and degrees, hands count as where they were."""
 
 
 @click.command(short_help="Motion of one body on another.")
@@ -61,7 +56,7 @@ def retarget(file: Path, outputs: Sequence[Path], rig: str, unit: str | None, qu
         made = on_other_body(source, body)
     for path in outputs:
         save_clip(made.clip, body, path)
-    lines = [*source.notes, _kept(made, body)]
+    lines = [*source.notes, made.kept(body)]
     lines += [f"wrote {path} ({size_of(path)})" for path in outputs]
     news("\n".join(lines), quiet=quiet)
     return DONE
@@ -85,16 +80,3 @@ def _measured(file: Path, unit: str | None) -> Measured:
         raise AZeeError(
             Diagnostic("cannot-read", f"cannot read `{file}`: {reason}", None)
         ) from error
-
-
-def _kept(made: Retargeted, body: Rig) -> str:
-    share = made.wrist_m / body.landmarks.arm_m
-    off = (share > KEPT_SHARE) | (made.palm_rad > math.radians(KEPT_DEG))
-    frames = int(off.any(axis=1).sum())
-    if not frames:
-        return f"hands are where they were in all {len(off)} frames"
-    return (
-        f"hands are where they were in {len(off) - frames} of {len(off)} frames; in the others the "
-        f"body does not reach: up to {100 * float(share.max()):.0f} % of its arm's length and "
-        f"{math.degrees(float(made.palm_rad.max())):.0f}° off"
-    )

@@ -31,11 +31,13 @@ ARM = (
     "palm_{S}.deviation",
 )  # fmt: skip
 """Coordinates of an arm."""
-WRIST_M, PALM_RAD, ELBOW_M, KEPT_RAD = 0.004, np.radians(1.0), 0.15, np.radians(60.0)
+WRIST_M, PALM_RAD, ELBOW_M, WISH_RAD = 0.004, np.radians(1.0), 0.15, np.radians(60.0)
 """What weighs as much as each other: off in place, in turn, at the elbow, from the wish."""
 HASTE_RAD = np.radians(1.0)
 """A turn from one frame to the next that weighs as much, where there is a choice of ways."""
 PRONATION = ARM.index("f_arm_{S}.pronation")
+KEPT_SHARE, KEPT_OFF_RAD = 0.03, np.radians(5.0)
+"""Up to here, in arm lengths and radians, hands count as where they were."""
 SWEEPS, STEP_RAD = 40, 1e-6
 FASTEST_RAD_S = 15.0
 """Faster turns of a joint than in any signing are jumps."""
@@ -53,6 +55,19 @@ class Retargeted:
     clip: Clip
     wrist_m: Floats
     palm_rad: Floats
+
+    def kept(self, body: Rig) -> str:
+        """Tell in how many frames hands are where they were, and how far they are off in others."""
+        share = self.wrist_m / body.landmarks.arm_m
+        off = (share > KEPT_SHARE) | (self.palm_rad > KEPT_OFF_RAD)
+        frames = int(off.any(axis=1).sum())
+        if not frames:
+            return f"hands are where they were in all {len(off)} frames"
+        return (
+            f"hands are where they were in {len(off) - frames} of {len(off)} frames; in the others "
+            f"the body does not reach: up to {100 * float(share.max()):.0f} % of its arm's length "
+            f"and {np.degrees(float(self.palm_rad.max())):.0f}° off"
+        )
 
 
 def retarget(source: Measured, rig: Rig) -> Retargeted:
@@ -186,7 +201,7 @@ class _Arms:
             (at.positions[..., self.nodes["palm"], :] - self.wrists) / WRIST_M,
             self._turned(at) / PALM_RAD,
             (at.positions[..., self.nodes["f_arm"], :] - self.elbows) / ELBOW_M,
-            (q[..., self.columns] - wish[:, self.columns]) / KEPT_RAD,
+            (q[..., self.columns] - wish[:, self.columns]) / WISH_RAD,
         ]
         r = np.concatenate(parts, axis=-1)
         return np.asarray((r**2).sum(axis=-1)), r

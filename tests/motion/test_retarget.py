@@ -84,3 +84,15 @@ def test_the_command_tells_what_was_kept(
     (tmp_path / "bad.bvh").write_text("HIERARCHY\nROOT a\n", encoding="utf-8")
     assert run(["retarget", str(tmp_path / "bad.bvh"), "-o", str(out)]) == 1
     assert "error[not-a-clip]" in capsys.readouterr().err
+
+
+def test_a_clip_command_carries_another_skeletons_motion_over(
+    signer: Rig, clip: Clip, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = load_rig("game")
+    write_bvh(retarget(measure_clip(clip, signer), other).clip, other, tmp_path / "theirs.bvh")
+    assert (
+        run(["clip", "convert", str(tmp_path / "theirs.bvh"), "-o", str(tmp_path / "x.npz")]) == 0
+    )
+    said = capsys.readouterr().err
+    assert f"carried over to `signer`: hands are where they were in all {FRAMES} frames" in said

@@ -12,8 +12,8 @@ from azee.formats import CLIP_WRITERS, writing
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
-    from azee.motion.bvh import Recording
     from azee.motion.clip import Clip
+    from azee.motion.recording import Recording
     from azee_rig.rig import Rig
 
 CLIP_SUFFIXES = (".npz", ".bvh")

@@ -7,7 +7,7 @@ keep their aim while a head shakes, and an arm reaches its path from the trunk a
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from azee.motion.bound import Bound
@@ -48,10 +48,11 @@ class Amending:
         """
         q = one.q[0]
         report, fixed = None, frozenset[int]()
-        for free in self._widening(one, asking, begun):
+        missed = frozenset(b for b in asking if self._is_missed(b, one))
+        for free in self._widening(asking, missed.union(begun)):
             fixed = self._all_but(free)
             report = self.solver(demands, start=q, reference=q, search=Search.NEAR, fixed=fixed)
-            standing = self._standing(one, asking, free)
+            standing = _standing(asking, missed, free)
             if all(c.met or c.demand.rank in standing for c in report.constraints):
                 return report
         assert report is not None
@@ -59,15 +60,15 @@ class Amending:
         if lost <= self.hopeless:
             return report
         wide = self.solver(demands, start=q, reference=q, fixed=fixed)
-        missed = [sum(not c.met for c in r.constraints) for r in (report, wide)]
-        return wide if missed[1] < missed[0] else report
+        left, less = (sum(not c.met for c in r.constraints) for r in (report, wide))
+        return wide if less < left else report
 
     def _widening(
-        self, one: Instants, asking: Sequence[Bound], begun: Sequence[Bound]
+        self, asking: Sequence[Bound], pressing: Collection[Bound]
     ) -> Iterator[frozenset[str]]:
         """Yield limbs that may move, ever more of them."""
-        new = [b for b in asking if b in begun or self._missed(b, one)]
-        kept = [b for b in asking if b not in new]
+        new = [b for b in asking if b in pressing]
+        kept = [b for b in asking if b not in pressing]
         if not new:
             new, kept = kept, []
         own = {b.limb for b in new}
@@ -78,21 +79,20 @@ class Amending:
                 yield free
             before = free
 
-    def _standing(
-        self, one: Instants, asking: Sequence[Bound], free: frozenset[str]
-    ) -> frozenset[int]:
-        """Ranks of what is right enough and does not move.
-
-        On the way a site may be two millimetres off its path, for which the solver would not stop.
-        """
-        return frozenset(
-            b.requirement.rank for b in asking if not b.limbs & free and not self._missed(b, one)
-        )
-
-    def _missed(self, bound: Bound, one: Instants) -> bool:
+    def _is_missed(self, bound: Bound, one: Instants) -> bool:
         residual = float(self.gauge.residual(bound, one)[0])
         return not residual <= self.gauge.tolerance(bound) * SETTLED
 
     def _all_but(self, free: frozenset[str]) -> frozenset[int]:
         members = (self.limbs.members[limb] for limb in self.limbs.names if limb not in free)
         return frozenset(int(v) for indices in members for v in indices)
+
+
+def _standing(
+    asking: Sequence[Bound], missed: Collection[Bound], free: frozenset[str]
+) -> frozenset[int]:
+    """Ranks of what is right enough and does not move.
+
+    On the way a site may be two millimetres off its path, for which the solver would not stop.
+    """
+    return frozenset(b.requirement.rank for b in asking if not b.limbs & free and b not in missed)

@@ -42,6 +42,7 @@ class Binding:
         if dominant not in (Side.LEFT, Side.RIGHT):
             raise ValueError("the dominant hand is the left or the right one")
         self.rig, self.dominant = rig, dominant
+        self._together: dict[tuple[Morph, ...], dict[int, float]] = {}
 
     def bone(self, bone: Bone) -> BoneNodes:
         """Nodes of a bone. Raises BindingError."""
@@ -79,10 +80,16 @@ class Binding:
 
         They add, and thumbs that they would put into their hand give way; see `handshape`.
         """
+        morphs = tuple(constraint for constraint in constraints if isinstance(constraint, Morph))
+        if morphs not in self._together:
+            self._together[morphs] = self._added(morphs)
+        return self._together[morphs].copy()
+
+    def _added(self, morphs: Iterable[Morph]) -> dict[int, float]:
         total: dict[int, float] = {}
-        for constraint in constraints:
-            if isinstance(constraint, Morph) and self.is_skeletal(constraint):
-                for v, angle in self.preset(constraint).items():
+        for morph in morphs:
+            if self.is_skeletal(morph):
+                for v, angle in self.preset(morph).items():
                     total[v] = total.get(v, 0.0) + angle
         if not total:
             return total

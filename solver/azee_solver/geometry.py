@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
+from functools import lru_cache
 from typing import TypeAlias
 
 
@@ -298,6 +299,7 @@ Path: TypeAlias = Straight | Arc | Circle | Through
 # Dependencies -------------------------------------------------------------------------------
 
 
+@lru_cache(maxsize=1024)
 def depends_on(expr: Vector | Point | Path) -> frozenset[Bone | Site]:
     """Bones and sites whose posture an expression reads."""
     found: set[Bone | Site] = set()

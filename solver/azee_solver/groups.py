@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from azee_solver.anatomy import Anatomy, Part
 from azee_solver.ordering import ordered
@@ -42,6 +43,16 @@ def grouped(
 
     Args: fixed: coordinates that nothing may move.
     """
+    return list(_grouped(tuple(problems), tuple(reach), anatomy, fixed))
+
+
+@lru_cache(maxsize=512)
+def _grouped(
+    problems: tuple[Problem, ...],
+    reach: tuple[Reach, ...],
+    anatomy: Anatomy,
+    fixed: frozenset[int],
+) -> tuple[Group, ...]:
     free = [problem.steps[r] - fixed for problem, r in zip(problems, reach, strict=True)]
     trunk, head = anatomy.of(Part.TRUNK), anatomy.of(Part.HEAD)
     own = frozenset().union(*(problem.steps[Reach.OWN] for problem in problems))
@@ -80,7 +91,7 @@ def grouped(
                 frozenset().union(*(read[g] for g in entry)),
             )
         )
-    return out
+    return tuple(out)
 
 
 def _is_gaze(problem: Problem, anatomy: Anatomy) -> bool:

@@ -327,11 +327,12 @@ class _Moment:
         first = group.problems[0]
         parts = self.body.anatomy.parts
         moved = {parts[v] for v in group.free}
+        dominant = self.body.evaluator.binding.dominant
         return ProblemReport(
-            problem.name,
+            problem.name(self.demands, dominant),
             problem.demands,
             problem.chain,
-            self.problems[first].name if first != p else None,
+            self.problems[first].name(self.demands, dominant) if first != p else None,
             tuple(part.value for part in Part if part in moved),
             solve_s=self.spent_s[group.problems] if first == p else 0.0,
         )

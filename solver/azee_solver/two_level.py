@@ -164,7 +164,7 @@ class _Keyframe:
         parts = {self.body.anatomy.parts[v] for v in chain}
         moved = tuple(part.value for part in Part if part in parts)
         return ProblemReport(
-            problem.name,
+            problem.name(self.demands, self.body.evaluator.binding.dominant),
             problem.demands,
             problem.chain,
             None,

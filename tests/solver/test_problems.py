@@ -53,20 +53,23 @@ def names(coordinates: frozenset[int]) -> set[str]:
 
 
 def test_tree_is_the_paper_s_eleven_problems() -> None:
-    problems = build(tree(thumb=True))
+    asked = tree(thumb=True)
+    problems = build(asked)
     assert len(problems) == 11
     assert [p.demands for p in problems[:3]] == [(0, 1, 2), (3,), (4, 5, 6, 7)]
     assert [p.demands for p in problems[3:]] == [(i,) for i in range(8, 16)]
-    assert problems[0].name.startswith("place H_BACK_L at")
-    assert problems[1].name == "place EL_R at PA_L"
-    assert problems[2].name == "orient f_arm_R dir, palm_R dir, thumb_R_3 dir, thumb_R_2 nrm"
+    called = [problem.name(asked, Side.RIGHT) for problem in problems]
+    assert called[0].startswith("place H_BACK_L at")
+    assert called[1] == "place EL_R at PA_L"
+    assert called[2] == "orient f_arm_R dir, palm_R dir, thumb_R_3 dir, thumb_R_2 nrm"
+    assert called[3] == "orient index_R_1 dir"
     assert problems[2].chain[-1] == "thumb_R_3"
-    assert problems[3].name == "orient index_R_1 dir"
     assert problems[1].chain == ("back_1", "back_2", "clav_R", "arm_R")
 
 
 def test_the_weak_hand_comes_first_however_it_is_written() -> None:
-    first = [p.name for p in build(list(reversed(tree())))]
+    asked = list(reversed(tree()))
+    first = [p.name(asked, Side.RIGHT) for p in build(asked)]
     weak = next(i for i, name in enumerate(first) if "H_BACK_L" in name)
     assert weak < first.index("place EL_R at PA_L")
 

@@ -12,10 +12,11 @@ from scipy.optimize import least_squares
 
 from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
+from azee_solver.broadphase import Collisions
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
-from azee_solver.program import Collisions, Cost, Program
+from azee_solver.program import Cost, Program
 from azee_solver.report import SolveReport
 from azee_solver.residuals import lower
 from azee_solver.solve import solve

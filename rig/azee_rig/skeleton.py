@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+Number = TypeVar("Number", bound=np.generic)
 
 
-def frozen(array: NDArray[np.generic] | list[object], dtype: type) -> NDArray[np.generic]:
+def frozen(array: ArrayLike, dtype: type[Number]) -> NDArray[Number]:
     """Return a read-only copy of an array."""
-    copy: NDArray[np.generic] = np.array(array, dtype=dtype)
+    copy = np.array(array, dtype=dtype)
     copy.setflags(write=False)
     return copy
 

@@ -16,13 +16,14 @@ from azee_rig.chain import Frames
 from azee_solver import kernels
 from azee_solver.anatomy import Anatomy, Part, anatomy, part_of
 from azee_solver.binding import Binding
+from azee_solver.broadphase import Collisions
 from azee_solver.collisions import Obstacles
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
 from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
-from azee_solver.program import Collisions, Cost, Program, Row
+from azee_solver.program import Cost, Program, Row
 from azee_solver.residuals import Residuals, lower
 from azee_solver.starts import starts
 from azee_solver.tape import Tape

@@ -22,6 +22,22 @@ Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Collisions:
+    """Capsules that must stay apart. pairs: (P, 2) capsules of the rig; reach: (P,) metres."""
+
+    pairs: Ints
+    reach: Array
+
+    @staticmethod
+    def none() -> Collisions:
+        """No collisions."""
+        return _NONE
+
+
+_NONE = Collisions(np.empty((0, 2), dtype=np.int64), np.empty(0))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class BroadPhase:
     """Pairs of capsules in runs.
 
@@ -54,16 +70,10 @@ class _Balls:
     radius: Array
 
 
-def broad_phase(rig: Rig, pairs: Ints, reach: Array) -> BroadPhase:
-    """Sort pairs (P, 2) with their reaches (P,) into runs."""
-    return _broad_phase(rig, pairs.tobytes(), reach.tobytes())
-
-
 @lru_cache(maxsize=256)
-def _broad_phase(rig: Rig, pair_bytes: bytes, reach_bytes: bytes) -> BroadPhase:
-    """Do so once for every problem that comes again, as those of a movement do."""
-    pairs = np.frombuffer(pair_bytes, dtype=np.int64).reshape(-1, 2)
-    reach = np.frombuffer(reach_bytes, dtype=np.float64)
+def broad_phase(rig: Rig, collisions: Collisions) -> BroadPhase:
+    """Sort pairs of capsules into runs, once for every problem that comes again."""
+    pairs, reach = collisions.pairs, collisions.reach
     balls = _balls(rig)
     count = len(balls.node)
     one, other = np.sort(balls.of[pairs], axis=1).T

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.chain import Frames
+from azee_rig.skeleton import frozen
 from azee_solver.anatomy import Anatomy, Part
 from azee_solver.binding import Binding
+from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Place
 from azee_solver.geometry import Site, SitePoint
-from azee_solver.program import Collisions
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -72,13 +73,13 @@ class Obstacles:
     def __init__(
         self, binding: Binding, anatomy: Anatomy, constraints: Sequence[Constraint]
     ) -> None:
-        self.binding, self.rig = binding, binding.rig
-        self.pairs, radii, self._margin, self._relative = _pairs(self.rig, anatomy)
-        self.reach: Array = (
-            radii + self._margin - self._allowance(self._meant(constraints, anatomy))
+        self.rig = binding.rig
+        meant = tuple(
+            (binding.site(one).name, binding.site(other).name, called)
+            for one, other, called in _meant(constraints)
         )
-        self._nodes = self.rig.capsules.node[self.pairs]
-        self._moves = anatomy.moves
+        self._clearance = _clearance(self.rig, anatomy, meant)
+        self.pairs, self.reach = self._clearance.pairs, self._clearance.reach
 
     def for_problem(self, free: Iterable[int], unsettled: Iterable[int]) -> Collisions:
         """Pairs whose distance the free coordinates change.
@@ -86,58 +87,88 @@ class Obstacles:
         Args: unsettled: coordinates that a later problem will move: what only they carry is not
             yet in the way.
         """
-        mine, later = list(free), list(unsettled)
-        moved = np.logical_or.reduce(self._moves[:, mine], axis=1)
-        will = np.logical_or.reduce(self._moves[:, later], axis=1)
-        absent = np.logical_and(will, ~moved)[self._nodes]
-        changed = np.logical_or.reduce(self._relative[:, mine], axis=1)
-        chosen = np.logical_and(changed, ~np.logical_or.reduce(absent, axis=1))
-        return Collisions(self.pairs[chosen], self.reach[chosen])
-
-    def _allowance(self, contacts: Iterable[Contact]) -> Array:
-        """Overlap that meant contacts make up, per pair, (P,) metres."""
-        i, j = self.pairs.T
-        allowed = np.zeros(len(self.pairs))
-        for contact in contacts:
-            share = np.maximum(
-                contact.first[i] * contact.second[j], contact.first[j] * contact.second[i]
-            )
-            allowed = np.maximum(allowed, share * contact.allowed_m)
-        return allowed
-
-    def _meant(self, constraints: Sequence[Constraint], anatomy: Anatomy) -> Iterable[Contact]:
-        places = [c for c in constraints if isinstance(c, Place)]
-        for place in places:
-            if isinstance(place.point, SitePoint):
-                yield self._contact(place.site, place.point.site, anatomy, called=place.contact)
-        for a, b in combinations(places, 2):
-            if a.point == b.point and a.distance_m == b.distance_m == 0.0:
-                yield self._contact(a.site, b.site, anatomy, called=False)
-
-    def _contact(self, one: Site, other: Site, anatomy: Anatomy, *, called: bool) -> Contact:
-        sites = self.binding.site(one), self.binding.site(other)
-        palms = [called and site.bone.startswith("palm") for site in sites]
-        slack = PALM_SLACK_M if any(palms) else CALLED_SLACK_M if called else SLACK_M
-        near, depth = zip(
-            *(
-                _around(self.rig, s.name, anatomy, wide=p)
-                for s, p in zip(sites, palms, strict=True)
-            ),
-            strict=True,
-        )
-        return Contact(near[0], near[1], sum(depth) + slack)
+        return _changed(self._clearance, frozenset(free), frozenset(unsettled))
 
     def overlaps(self, frames: Frames) -> tuple[Overlap, ...]:
         """Pairs that overlap in a posture, deepest first."""
         names = self.rig.capsules.names
-        wanted = self.reach - self._margin
+        wanted = self.reach - self._clearance.margin
         near = np.flatnonzero(_gap_at_least(self.rig, self.pairs, frames) < wanted)
+        if not len(near):
+            return ()
         excess = wanted[near] - _distances(self.rig, self.pairs[near], frames)
         return tuple(
             Overlap(names[self.pairs[near[n], 0]], names[self.pairs[near[n], 1]], float(excess[n]))
             for n in np.argsort(-excess, kind="stable")
             if excess[n] > 0
         )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Clearance:
+    """How near capsules may come where certain contacts are meant.
+
+    pairs: (P, 2). reach: (P,) metres, with the margin in it. margin: (P,). nodes: (P, 2) that
+    carry them. relative: (P, V), which coordinates change their distance.
+    """
+
+    anatomy: Anatomy
+    pairs: NDArray[np.int64]
+    reach: Array
+    margin: Array
+    nodes: NDArray[np.int64]
+    relative: NDArray[np.bool_]
+
+
+@lru_cache(maxsize=64)
+def _clearance(rig: Rig, anatomy: Anatomy, meant: tuple[tuple[str, str, bool], ...]) -> _Clearance:
+    """Work it out once for all moments with the same contacts, as those of a movement."""
+    pairs, radii, margin, relative = _pairs(rig, anatomy)
+    i, j = pairs.T
+    allowed = np.zeros(len(pairs))
+    for one, other, called in meant:
+        contact = _contact(rig, anatomy, one, other, called=called)
+        share = np.maximum(
+            contact.first[i] * contact.second[j], contact.first[j] * contact.second[i]
+        )
+        allowed = np.maximum(allowed, share * contact.allowed_m)
+    reach = frozen(radii + margin - allowed, np.float64)
+    return _Clearance(anatomy, pairs, reach, margin, rig.capsules.node[pairs], relative)
+
+
+@lru_cache(maxsize=256)
+def _changed(clear: _Clearance, free: frozenset[int], unsettled: frozenset[int]) -> Collisions:
+    mine, later = sorted(free), sorted(unsettled)
+    moves = clear.anatomy.moves
+    absent = np.logical_or.reduce(moves[:, later], axis=1)
+    absent = np.logical_and(absent, ~np.logical_or.reduce(moves[:, mine], axis=1))[clear.nodes]
+    changed = np.logical_or.reduce(clear.relative[:, mine], axis=1)
+    chosen = np.logical_and(changed, ~np.logical_or.reduce(absent, axis=1))
+    return Collisions(clear.pairs[chosen], clear.reach[chosen])
+
+
+def _meant(constraints: Iterable[Constraint]) -> Iterator[tuple[Site, Site, bool]]:
+    """Sites that are meant to touch, and whether the text calls that a contact."""
+    places = [c for c in constraints if isinstance(c, Place)]
+    for place in places:
+        if isinstance(place.point, SitePoint):
+            yield place.site, place.point.site, place.contact
+    for a, b in combinations(places, 2):
+        if a.point == b.point and a.distance_m == b.distance_m == 0.0:
+            yield a.site, b.site, False
+
+
+def _contact(rig: Rig, anatomy: Anatomy, one: str, other: str, *, called: bool) -> Contact:
+    palms = [called and rig.sites[name].bone.startswith("palm") for name in (one, other)]
+    slack = PALM_SLACK_M if any(palms) else CALLED_SLACK_M if called else SLACK_M
+    near, depth = zip(
+        *(
+            _around(rig, name, anatomy, wide=palm)
+            for name, palm in zip((one, other), palms, strict=True)
+        ),
+        strict=True,
+    )
+    return Contact(near[0], near[1], sum(depth) + slack)
 
 
 @lru_cache(maxsize=256)

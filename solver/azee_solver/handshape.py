@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 
 from azee_solver.anatomy import Part, anatomy
 from azee_solver.binding import Binding
+from azee_solver.broadphase import Collisions
 from azee_solver.collisions import Obstacles
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
-from azee_solver.program import Collisions, Cost, Program
+from azee_solver.program import Cost, Program
 from azee_solver.tape import Tape
 
 if TYPE_CHECKING:

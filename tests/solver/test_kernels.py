@@ -12,6 +12,7 @@ from stick_body import stick_body
 from azee_rig.chain import Frames
 from azee_rig.rig import Rig
 from azee_solver import kernels, nlopt_backend
+from azee_solver.broadphase import Collisions
 from azee_solver.collisions import segment_distance
 from azee_solver.constraint import (
     BoneAxis,
@@ -53,7 +54,7 @@ from azee_solver.geometry import (
     VSum,
     VTranslate,
 )
-from azee_solver.program import Collisions, Cost, Program, Row
+from azee_solver.program import Cost, Program, Row
 from azee_solver.residuals import Tolerance, lower
 from azee_solver.tape import Tape
 

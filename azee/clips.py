@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,6 +18,8 @@ if TYPE_CHECKING:
 CLIP_SUFFIXES = (".npz", ".bvh")
 """Formats that clips are read from."""
 SHIPPED = "signer"
+OUR_UNIT = "cm"
+"""Of the lengths in BVH that azee wrote."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +35,7 @@ def open_clip(path: str | Path, rig: Rig | None = None) -> OpenClip:
     """Read a clip that `azee` stored (.npz) or a BVH file.
 
     Args: rig: the body; by default the one that a stored clip names, else the signer.
-    Raises: AZeeError: cannot-read, not-a-clip. RigError: the rig that it names is not there.
+    Raises: AZeeError: cannot-read, not-a-clip. RigError: the body cannot be read.
     """
     path = Path(path)
     try:
@@ -62,10 +63,23 @@ def _stored(path: Path, rig: Rig | None) -> OpenClip:
     from azee_rig.load import load_rig
 
     try:
-        body = rig or load_rig(rig_of(path) or SHIPPED)
+        body = rig or load_rig(_shipped(path, rig_of(path) or SHIPPED))
         return OpenClip(read_clip(path, body), body)
     except ClipFileError as error:
         raise AZeeError(_no_clip(str(error))) from error
+
+
+def _shipped(path: Path, name: str) -> str:
+    """Return the name of a body if it ships: a clip's own folders are not looked into.
+
+    Raises: AZeeError: not-a-clip.
+    """
+    from azee_rig.load import shipped_rigs
+
+    if name in shipped_rigs():
+        return name
+    message = f"`{path}` moves the body `{name}`, which does not ship"
+    raise AZeeError(_no_clip(message, "name the body's folder with --rig"))
 
 
 def _recorded(path: Path, rig: Rig | None) -> OpenClip:
@@ -74,17 +88,19 @@ def _recorded(path: Path, rig: Rig | None) -> OpenClip:
     from azee_rig.load import load_rig
 
     try:
-        recording = read_bvh(path)
+        recording = read_bvh(path, OUR_UNIT)
+        body = rig or load_rig(SHIPPED)
+        if not is_own(recording, body):
+            recording = read_bvh(path)  # somebody scaled it, and then it says so
     except BvhError as error:
         raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
-    body = rig or load_rig(SHIPPED)
     if not is_own(recording, body):
         return _carried_over(path, recording, body)
     clip, lost_rad = own_clip(recording, body)
-    notes: Sequence[str] = ()
+    notes = list(recording.notes)
     if lost_rad > LOST_RAD:
-        notes = (
-            f"the body cannot do all of it: joints are up to {math.degrees(lost_rad):.1f}° off",
+        notes.append(
+            f"the body cannot do all of it: joints are up to {math.degrees(lost_rad):.1f}° off"
         )
     return OpenClip(clip, body, tuple(notes))
 

@@ -81,9 +81,10 @@ def _film(made: Compilation, path: Path) -> None:
 def filming() -> Iterator[None]:
     """Tell in the user's words what films need.
 
-    Raises: AZeeError: not-installed.
+    Raises: AZeeError: not-installed, clip-times.
     """
     from azee.export.film import NoEncoderError
+    from azee.motion.resample import TooManyFramesError
 
     try:
         yield
@@ -93,6 +94,8 @@ def filming() -> Iterator[None]:
                 "not-installed", str(error), None, help="install it with: pip install 'azee[film]'"
             )
         ) from error
+    except TooManyFramesError as error:
+        raise AZeeError(Diagnostic("clip-times", str(error), None)) from error
 
 
 def _svg(made: Compilation, path: Path) -> None:

@@ -11,6 +11,7 @@ import click
 
 from azee.cli.body import load_body
 from azee.cli.console import news
+from azee.cli.number import Number
 from azee.cli.outcome import size_of
 from azee.cli.outputs import check_outputs, with_suffix
 from azee.formats import CLIP_WRITERS
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-SECONDS = click.FloatRange(min=0)
+SECONDS = Number(min=0)
 
 
 @click.group("clip", short_help="Cut, join, mirror and retime clips.")
@@ -48,7 +49,7 @@ def _options(command: Command) -> Command:
             ),
             click.option(
                 "--fps",
-                type=click.FloatRange(1, 1000),
+                type=Number(1, 1000),
                 help="Frames a second of what is written; by default those of FILE.",
             ),
             click.option("--rig", metavar="R", help="A body by name, or its folder."),
@@ -152,7 +153,7 @@ def mirror(
 @clip.command(short_help="Slower or faster.")
 @_file
 @click.option("--duration", "duration_s", type=SECONDS, help="Seconds that it is to last.")
-@click.option("--speed", type=click.FloatRange(0, min_open=True), help="2 is twice as fast.")
+@click.option("--speed", type=Number(0, min_open=True), help="2 is twice as fast.")
 @_options
 def retime(
     file: Path,
@@ -212,7 +213,8 @@ def _save(made: Clip, body: Rig, outputs: Sequence[Path], fps: float | None, qui
     if fps is None and len(made.times) > 1:
         fps = 30.0 if rate(made) is None else None
     if fps is not None:
-        made = at_rate(made, fps, body.coordinates)
+        with _in_words():
+            made = at_rate(made, fps, body.coordinates)
     for path in outputs:
         save_clip(made, body, path)
     lines = [f"{made.duration_s:.2f} s, {len(made.times)} frames"]

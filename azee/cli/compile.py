@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,8 +10,9 @@ import click
 
 from azee.cli.body import load_body
 from azee.cli.console import DONE, FAULT, MISSED, as_json, news, show, show_json, working
+from azee.cli.number import Number
 from azee.cli.outcome import outcome
-from azee.cli.outputs import check_outputs, with_suffix
+from azee.cli.outputs import check_media, check_outputs, with_suffix
 from azee.cli.profile import Profile
 from azee.cli.text import Text, dominant_option, text_options
 from azee.compilation import perform
@@ -25,13 +25,6 @@ if TYPE_CHECKING:
 
 
 PATIENCE = "Preparing the solver: the first run after installing takes longer …"
-
-
-def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
-    """Refuse NaN, which lies in every range."""
-    if math.isnan(value):
-        raise click.BadParameter("it is not a number")
-    return value
 
 
 @click.command("compile", short_help="A text as a moving body: GLB, BVH, films and more.")
@@ -57,10 +50,9 @@ def _a_number(_: click.Context, __: click.Parameter, value: float) -> float:
 )
 @click.option(
     "--fps",
-    type=click.FloatRange(1, 1000),
+    type=Number(1, 1000),
     default=30,
     show_default=True,
-    callback=_a_number,
     help="Frames a second.",
 )
 @dominant_option
@@ -122,6 +114,7 @@ def compile_(
     and --strict is given.
     """
     files = [*outputs, *([report] if report else [])]
+    check_media(media, outputs)
     media = media or next((p for p in outputs if p.suffix.lower() in FILM_SUFFIXES), None)
     watch = Profile()
     watch.load("numpy", "importing numpy")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -41,6 +42,9 @@ def lsp(libraries: Sequence[Path], port: int | None) -> int:
             ]
         )
         return FAULT
+    # Reading standard input cannot be left in an orderly way, and no file is half-written.
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, signal.SIG_DFL)
     server = make_server(libraries)
     if port is None:
         server.start_io()

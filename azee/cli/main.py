@@ -6,10 +6,13 @@ a fault of ours and keeps its traceback.
 
 from __future__ import annotations
 
+import errno
 import gc
 import os
+import signal
 import sys
 from collections.abc import Sequence
+from typing import NoReturn
 
 import click
 
@@ -26,7 +29,10 @@ from azee.cli.retarget import retarget
 from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
-from azee_grammar.diagnostic import AZeeError
+from azee_grammar.diagnostic import AZeeError, Diagnostic
+
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+"""Why output cannot be written, though somebody takes it."""
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -53,14 +59,41 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave the process with its exit code."""
     # What a command loads stays: looking for garbage in it again and again takes a tenth of it.
     gc.set_threshold(50_000, 20, 20)
+    signal.signal(signal.SIGTERM, _stop)
+    _open_what_is_closed()
     sys.exit(run(arguments))
+
+
+def _stop(_: int, __: object) -> NoReturn:
+    """Leave as after Ctrl-C, so that no half-written file stays."""
+    sys.exit(128 + signal.SIGTERM)
+
+
+def _open_what_is_closed() -> None:
+    """Give a process that was started with closed streams streams that lead nowhere.
+
+    Otherwise the next file that is opened would be taken for standard output or error.
+    """
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            nowhere = os.open(os.devnull, os.O_RDWR)
+            if nowhere != number:
+                os.dup2(nowhere, number)
+                os.close(nowhere)
+            setattr(sys, name, os.fdopen(number, "w" if number else "r", encoding="utf-8"))
+
+
+def _abandon_output() -> None:
+    """Let the interpreter's own flush fail silently: nobody takes our output."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     try:
         code = azee.main(arguments, prog_name="azee", standalone_mode=False)
-        sys.stdout.flush()
+        if not sys.stdout.closed:
+            sys.stdout.flush()
     except AZeeError as error:
         show(error.diagnostics)
         return FAULT
@@ -70,7 +103,13 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except (click.Abort, KeyboardInterrupt):
         return INTERRUPTED
     except BrokenPipeError:
-        # Whoever read our output has gone; so that the interpreter's own flush fails silently.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _abandon_output()
+        return FAULT
+    except OSError as error:
+        if error.errno not in FULL or error.filename is not None:
+            raise
+        _abandon_output()
+        reason = os.strerror(error.errno or 0).lower()
+        show([Diagnostic("cannot-write", f"cannot write standard output: {reason}", None)])
         return FAULT
     return code if isinstance(code, int) else DONE

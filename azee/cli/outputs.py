@@ -30,11 +30,22 @@ def with_suffix(*suffixes: str) -> Callable[..., Any]:
 def check_outputs(paths: Iterable[Path]) -> None:
     """Refuse, before any work is done, what could not be written at its end.
 
-    Raises: AZeeError: cannot-write, one diagnostic for each.
+    Raises: AZeeError: cannot-write, one diagnostic for each. click.UsageError: two are one file.
     """
+    paths = list(paths)
+    places = [path.resolve() for path in paths]
+    for path, place in zip(paths, places, strict=True):
+        if places.count(place) > 1:
+            raise click.UsageError(f"`{path}` would be written twice")
     found = [cannot_write(path, error) for path in paths if (error := _obstacle(path))]
     if found:
         raise AZeeError(*found)
+
+
+def check_media(media: Path | None, outputs: Iterable[Path]) -> None:
+    """Refuse a film for ELAN where no ELAN file is written. Raises: click.UsageError."""
+    if media is not None and not any(path.suffix.lower() == ".eaf" for path in outputs):
+        raise click.UsageError("--media is of ELAN files: name an .eaf with -o")
 
 
 def _obstacle(path: Path) -> OSError | None:

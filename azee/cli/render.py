@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
 from azee.cli.body import load_body
 from azee.cli.console import bar, news, working
+from azee.cli.number import Number
 from azee.cli.outcome import size_of
 from azee.cli.outputs import check_outputs, with_suffix
 from azee.cli.text import Text, dominant_option, text_options
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
     from azee.motion.clip import Clip
     from azee_rig.rig import Rig
 
+OF_TEXTS = ("expression", "utterance", "libraries", "dominant", "no_life")
+"""Options that say how a text is read and solved."""
 _SIZE = re.compile(r"(\d{1,5})\s*[x×]\s*(\d{1,5})", re.ASCII)
 _SECONDS = re.compile(r"(\d+(?:\.\d+)?)\s*s?", re.ASCII)
 
@@ -69,7 +73,7 @@ def _moments(_: click.Context, __: click.Parameter, values: Sequence[str]) -> tu
 )
 @click.option(
     "--fps",
-    type=click.FloatRange(1, 240),
+    type=Number(1, 240),
     default=30,
     show_default=True,
     help="Frames a second of a film.",
@@ -110,7 +114,7 @@ def render(
     quiet: bool,
 ) -> None:
     """Draw FILE, a text or a clip (.npz, .bvh), as pictures and films."""
-    from azee.export.scene import Look
+    from azee.export.scene import Look, NoRoomError
 
     films = [path for path in outputs if path.suffix.lower() in FILM_SUFFIXES]
     if transparent and any(path.suffix.lower() == ".mp4" for path in films):
@@ -127,7 +131,8 @@ def render(
     if films:
         _encoder_there()
     if file is not None and Path(file).suffix.lower() in CLIP_SUFFIXES:
-        clip, body, keys = _of_clip(Path(file), expression, rig, quiet)
+        _refuse_options_of_texts()
+        clip, body, keys = _of_clip(Path(file), rig, quiet)
     else:
         text = Text.read(file, expression, utterance, libraries)
         clip, body, keys = _of_text(text, rig or "signer", dominant, not no_life, quiet)
@@ -137,10 +142,13 @@ def render(
             f"{beyond[0]:g} s is after the end, at {clip.times[-1]:.2f} s", param_hint="'--at'"
         )
     for path in outputs:
-        if path in films:
-            _film(clip, body, path, look, fps, quiet)
-        else:
-            _picture(clip, body, path, look, moments, keys, sheet)
+        try:
+            if path in films:
+                _film(clip, body, path, look, fps, quiet)
+            else:
+                _picture(clip, body, path, look, moments, keys, sheet)
+        except NoRoomError as error:
+            raise click.BadParameter(str(error), param_hint="'--size'") from error
         news(f"wrote {path} ({size_of(path)})", quiet=quiet)
 
 
@@ -163,14 +171,19 @@ def _of_text(
     return made.clip, body, made.animation.key_times
 
 
-def _of_clip(
-    file: Path, expression: str | None, rig: str | None, quiet: bool
-) -> tuple[Clip, Rig, Sequence[float] | None]:
+def _refuse_options_of_texts() -> None:
+    """Refuse what says how a text is read and solved. Raises: click.UsageError."""
+    context = click.get_current_context()
+    for option in context.command.params:
+        given = context.get_parameter_source(option.name or "") is ParameterSource.COMMANDLINE
+        if given and option.name in OF_TEXTS:
+            raise click.UsageError(f"{option.opts[0]} is for texts and does not go with a clip")
+
+
+def _of_clip(file: Path, rig: str | None, quiet: bool) -> tuple[Clip, Rig, Sequence[float] | None]:
     from azee.clips import open_clip
     from azee_rig.load import RigError
 
-    if expression is not None:
-        raise click.UsageError("an expression, -e, does not go with a clip")
     body = None if rig is None else load_body(rig)
     try:
         found = open_clip(file, body)
@@ -184,7 +197,7 @@ def _of_clip(
 def _film(clip: Clip, body: Rig, path: Path, look: Look, fps: float, quiet: bool) -> None:
     from azee.export.film import write_film
 
-    with bar(f"Filming {path}", quiet=quiet) as progress, writing(path):
+    with bar(f"Filming {path}", quiet=quiet) as progress, filming(), writing(path):
         write_film(clip, body, path, look, fps=fps, progress=progress)
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from azee.cli.console import working
-from azee.cli.outputs import check_outputs, with_suffix
+from azee.cli.outputs import check_media, check_outputs, with_suffix
 from azee.cli.text import Text, dominant_option, text_options
 from azee.formats import writing
 
@@ -62,6 +62,7 @@ def score(
 
     if tracks and not outputs:
         raise click.UsageError("--tracks is drawn: name a file with -o")
+    check_media(media, outputs)
     check_outputs(outputs)
     found = Text.read(file, expression, utterance, libraries).score(dominant)
     if not outputs:

@@ -24,13 +24,19 @@ from azee_rig.skeleton import Pose
 Pixels = NDArray[np.uint8]
 
 MOST_THREADS = 8
+LEAST = 16
+"""Pixels of what a camera shows, each way."""
+
+
+class NoRoomError(ValueError):
+    """Too small a picture for what it is to show."""
 
 
 @dataclass(frozen=True, slots=True)
 class Look:
     """How frames look: size in pixels, the cameras from left to right, the strip, the background.
 
-    Raises: ValueError: no camera, or too small a picture.
+    Raises: ValueError: no camera. NoRoomError.
     """
 
     size: tuple[int, int] = (1280, 720)
@@ -42,19 +48,24 @@ class Look:
     def __post_init__(self) -> None:
         if not self.shots:
             raise ValueError("a film needs a camera")
-        if min(self.size) < 16 * len(self.shots):
-            raise ValueError(f"{self.size[0]}×{self.size[1]} pixels are too few")
+        if self.size[1] < LEAST or self.size[0] < LEAST * len(self.shots):
+            raise NoRoomError(f"{self.size[0]}×{self.size[1]} pixels are too few")
 
 
 class Scene:
     """A clip in front of its cameras."""
 
     def __init__(self, clip: Clip, rig: Rig, look: Look) -> None:
-        """Prepare all that stays. Raises: KeyError: there is no camera of that name."""
+        """Prepare all that stays. Raises: KeyError: there is no camera of that name.
+
+        NoRoomError: the captions leave none.
+        """
         self.clip, self.rig, self.look = clip, rig, look
         width, height = look.size
         self.strip = Strip(clip.labels if look.captions else (), look.size)
         inner = height - self.strip.height
+        if inner < LEAST:
+            raise NoRoomError(f"{width}×{height} pixels leave no room above the captions")
         edges = np.linspace(0, width, len(look.shots) + 1).round().astype(int)
         self.panels = [(int(b - a), inner) for a, b in pairwise(edges)]
         self.cameras = [

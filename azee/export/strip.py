@@ -58,6 +58,7 @@ class Strip:
         for n, row in enumerate(rows):
             left, top = 8, 4 + n * (self.line + 4)
             room = (self.width - 8) // max(1, len(row))
+            gap = min(8, room // 3)
             for label in row:
                 inside = (
                     "" if label.depth < self.rows else " › ".join(label.path[self.rows - 1 : -1])
@@ -65,7 +66,8 @@ class Strip:
                 text = _fitted(
                     f"{inside} › {label.text}" if inside else label.text, font, room - 24
                 )
-                width = min(room - 8, max(int(font.getlength(text)) + 18, self.line * 2))
+                width = min(room - gap, max(int(font.getlength(text)) + 18, self.line * 2))
+                width = max(width, 1)
                 colour = CHIPS[n % len(CHIPS)]
                 box = (left, top, left + width, top + self.line)
                 pen.rounded_rectangle(box, self.line // 4, fill=tuple(c // 2 for c in colour))
@@ -74,8 +76,11 @@ class Strip:
                     pen.rounded_rectangle(
                         (left, top, left + filled, top + self.line), self.line // 4, fill=colour
                     )
-                pen.text((left + 9, top + self.line / 2), text, font=font, fill=INK, anchor="lm")
-                left += width + 8
+                if width > 24:
+                    pen.text(
+                        (left + 9, top + self.line / 2), text, font=font, fill=INK, anchor="lm"
+                    )
+                left += width + gap
         return np.asarray(image)
 
     def _filled(self, label: Label, time_s: float) -> int:

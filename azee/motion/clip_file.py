@@ -135,7 +135,10 @@ def _read(path: str | Path) -> tuple[dict[str, Any], dict[str, Any]]:
                     f"this azee reads version {VERSION}"
                 )
             names = ("times", "coordinates", "unit_weights")
-            return header, {name: np.asarray(packed[name], dtype=np.float64) for name in names}
+            arrays = {name: packed[name] for name in names}
+            if any(array.dtype.kind not in "fiu" for array in arrays.values()):
+                raise ClipFileError(f"`{path}` holds numbers that are none")
+            return header, {name: np.asarray(arrays[name], dtype=np.float64) for name in names}
     except ClipFileError:
         raise
     except OSError:

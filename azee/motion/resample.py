@@ -15,6 +15,12 @@ Array = NDArray[np.float64]
 
 EVEN_S = 1e-6
 """Up to which difference of lengths frames count as evenly spaced."""
+MOST_FRAMES = 500_000
+"""More than four hours at 30 frames a second: what has more comes of a mistake."""
+
+
+class TooManyFramesError(ValueError):
+    """A clip that no machine would hold."""
 
 
 def sampled(clip: Clip, times: ArrayLike, coordinates: Coordinates) -> Clip:
@@ -47,11 +53,17 @@ def at_rate(clip: Clip, fps: float, coordinates: Coordinates) -> Clip:
     """Return the clip with evenly spaced frames, from its first time on.
 
     The last frame is the last that the clip's own length holds.
-    Raises: ValueError: no such rate.
+    Raises: ValueError: no such rate. TooManyFramesError: more than `MOST_FRAMES`.
     """
     if not (np.isfinite(fps) and fps > 0):
         raise ValueError(f"{fps} frames per second make no clip")
-    count = int(np.floor(clip.duration_s * fps + fps * EVEN_S)) + 1
+    frames = np.floor(clip.duration_s * fps + fps * EVEN_S) + 1
+    if not frames <= MOST_FRAMES:
+        raise TooManyFramesError(
+            f"{clip.duration_s:g} s at {fps:g} frames a second are {frames:g} frames, "
+            f"more than {MOST_FRAMES:,}"
+        )
+    count = int(frames)
     times = clip.times[0] + np.arange(count) / fps
     return sampled(clip, times, coordinates)
 

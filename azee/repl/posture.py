@@ -45,8 +45,16 @@ class Wish:
         return cls(path, time_s, view)
 
     def at(self, made: Compilation) -> float:
-        """Return the time on the score's line; by default that of a key posture in its middle."""
+        """Return the time on the score's line; by default that of a key posture in its middle.
+
+        Raises: Refusal: it is after the end.
+        """
         if self.time_s is not None:
+            last_s = made.clip.duration_s - made.animation.lead_s
+            if self.time_s > last_s:
+                raise Refusal(
+                    f"{self.time_s:g} s is after the end", f"the last posture is at {last_s:.2f} s"
+                )
             return self.time_s
         times = made.animation.key_times
         key_s = times[len(times) // 2] if times else made.clip.duration_s / 2

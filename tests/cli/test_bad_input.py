@@ -156,6 +156,10 @@ USAGE = {
     "unknown mode": ["compile", "one.azee", "--mode", "wild"],
     "no frames": ["compile", "one.azee", "--fps", "0"],
     "not a number": ["compile", "one.azee", "--fps", "nan"],
+    "one file twice": ["score", "one.azee", "-o", "x.svg", "-o", "./x.svg"],
+    "a report over a clip": ["compile", "one.azee", "-o", "x.json", "--report", "x.json"],
+    "a film for no ELAN file": ["compile", "one.azee", "-o", "x.glb", "--media", "x.mp4"],
+    "a video for no ELAN file": ["score", "one.azee", "--media", "x.mp4"],
     "no such hand": ["compile", "one.azee", "--dominant", "middle"],
     "no such library folder": ["check", "one.azee", "--library", "missing"],
     "which utterance": ["score", "one.azee", "-e", ":arbre", "--utterance", "1"],
@@ -202,6 +206,38 @@ def test_a_reader_that_goes_away_is_no_fault(python: Python, tmp_path: Path) -> 
     done = python("-c", script)
     assert done.returncode != 0
     assert done.stderr == ""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="closed and full streams are those of POSIX")
+def test_output_that_is_closed_or_full(python: Python) -> None:
+    """A closed stream is nobody's who wants output; the next file opened must not become it."""
+    call = "from azee.cli.main import main; main({})"
+    draw = call.format(["score", "-e", "key 1 (look ^fwd)", "-o", "x.svg"])
+    python("-c", f"import sys\nsys.stdout = sys.stderr = None\n{draw}", expect=0)
+    assert (python.folder / "x.svg").read_bytes().startswith(b"<")
+    for command in (["score", "-e", "key 1 (look ^fwd)"], ["repl", "--no-history"]):
+        write = f"import sys\nsys.stdout = open('/dev/full', 'w')\n{call.format(command)}"
+        if Path("/dev/full").exists():
+            done = python("-c", write, stdin="count (list 1 2)", expect=1)
+            assert done.stderr.startswith("error[cannot-write]"), done.stderr
+            assert "Traceback" not in done.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there are no signals like those of POSIX")
+def test_a_process_that_is_ended_leaves_nothing_half_written(python: Python) -> None:
+    script = (
+        "import os, signal\n"
+        "from azee.cli import main\n"
+        "from azee.export.files import replace_file\n"
+        "def stopped(_):\n"
+        "    with replace_file('x.glb') as file:\n"
+        "        file.write(b'half')\n"
+        "        os.kill(os.getpid(), signal.SIGTERM)\n"
+        "main.run = stopped\n"
+        "main.main()\n"
+    )
+    python("-c", script, expect=128 + 15)
+    assert list(python.folder.iterdir()) == []
 
 
 def test_a_fault_of_ours_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -148,6 +149,13 @@ def test_the_strip_names_what_runs(waving: Clip) -> None:
     assert [label.text for label in last] == ["d", "e", "f", "g"], "none is left out"
 
 
+def test_the_strip_has_room_for_any_number_of_blocks() -> None:
+    labels = [Label((f"{i}",), 0.0, 1.0) for i in range(200)]
+    drawn = Strip(labels, (160, 120)).draw(0.5)
+    assert drawn.shape[1] == 160
+    assert len(np.unique(drawn.reshape(-1, 4), axis=0)) > 1
+
+
 def test_every_letter_of_european_names_can_be_written() -> None:
     font = typeface(24)
     nothing = bytes(font.getmask("\uffff"))
@@ -199,7 +207,12 @@ def test_what_cannot_be_drawn_is_said_in_one_message(
         "-o w.png --at 9s": 2,
         "-o w.png --at soon": 2,
         "-o w.png --size 2x2": 2,
+        "-o w.png --size 16x24": 2,
+        "-o w.mp4 --fps nan": 2,
         "-o w.png -e :arbre": 2,
+        "-o w.png --utterance 2": 2,
+        "-o w.png --no-life": 2,
+        "-o w.png -o ./w.png": 2,
         "-o nowhere/w.png": 1,
     }
     for options, code in wrong.items():
@@ -248,6 +261,21 @@ def test_clips_are_worked_on_from_the_command_line(
     Path("cut-off.bvh").write_text(Path("c.bvh").read_text(encoding="ascii")[:5000], "ascii")
     assert run(["clip", "convert", "cut-off.bvh", "-o", "x.npz"]) == 1
     assert capsys.readouterr().err.count("error[not-a-clip]") == 2
+    assert run(["clip", "convert", "c.bvh", "-o", "again.npz"]) == 0
+    assert "cm" not in capsys.readouterr().err  # our own lengths need no guess
+    Path("late.bvh").write_text(
+        Path("c.bvh").read_text(encoding="ascii").replace("Frame Time: 0.0", "Frame Time: -"),
+        encoding="ascii",
+    )
+    assert run(["clip", "convert", "late.bvh", "-o", "again.npz"]) == 0
+    assert "no frame time" in capsys.readouterr().err
     assert run(["clip", "cut", "w.npz", "--from", "8", "-o", "x.npz"]) == 1
+    assert run(["clip", "retime", "w.npz", "--duration", "1000000000", "-o", "x.npz"]) == 1
+    assert capsys.readouterr().err.count("error[clip-times]") == 2
+    save_clip(waving, replace(signer, name="../nobody"), "n.npz")
+    assert run(["clip", "convert", "n.npz", "-o", "x.npz"]) == 1
+    told = capsys.readouterr().err
+    assert "error[not-a-clip]" in told
+    assert "--rig" in told
     assert run(["clip", "retime", "w.npz", "-o", "x.npz"]) == 2
     assert not Path("x.npz").exists()

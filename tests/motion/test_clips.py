@@ -169,6 +169,7 @@ def test_what_is_no_clip_is_refused_in_one_sentence(tmp_path: Path) -> None:
         {"times": np.zeros((3, 1))},
         {"times": np.array([0.0, 0.0, 1.0])},
         {"times": np.array([0.0, np.nan, 1.0])},
+        {"times": np.array([0.0, 1.0, 2.0 + 1j])},
     ],
     ids=str,
 )

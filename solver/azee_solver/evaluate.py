@@ -8,6 +8,7 @@ of the body that plays. A direction that its operands do not define is NaN, neve
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
@@ -70,6 +71,12 @@ LengthOrAngle: TypeAlias = Literal["m", "rad"]
 
 GAZE = DIR
 """Column of an eye's frame that looks."""
+
+
+@lru_cache(maxsize=8)
+def evaluator(rig: Rig, dominant: Side) -> Evaluator:
+    """Return the one evaluator of a rig and a dominant hand."""
+    return Evaluator(rig, dominant)
 
 
 class Evaluator:

@@ -22,6 +22,9 @@ class Side(Enum):
     LEFT = "L"
     RIGHT = "R"
 
+    __hash__ = object.__hash__
+    """By identity, as `is` compares them: sides stand in most keys of caches."""
+
     @property
     def opposite(self) -> Side:
         """The other side of the same kind."""
@@ -68,6 +71,7 @@ class Site:
         return _key(self.name, self.side, self.phalanx, dominant)
 
 
+@lru_cache(maxsize=1024)
 def _key(name: str, side: Side | None, phalanx: int | None, dominant: Side) -> str:
     parts = [name]
     if side is not None:

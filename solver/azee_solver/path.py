@@ -23,7 +23,9 @@ def straight(start: Array, end: Array, t: ArrayLike) -> Array:
 
 def unit(v: Array) -> Array:
     """Return v at length one, NaN where it has no direction."""
-    length = np.linalg.norm(v, axis=-1, keepdims=True)
+    length = np.sqrt(np.add.reduce(v * v, axis=-1, keepdims=True))
+    if np.all(length > TINY):
+        return np.asarray(v / length)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(length > TINY, v / length, np.nan)
 

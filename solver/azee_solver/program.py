@@ -108,16 +108,21 @@ class Program:
         self.section(k.OVERLAP_WEIGHT)[0] = cost.overlap
         self.section(k.POSITIONS)[:] = tape.frames.positions.ravel()
         self.section(k.ROTATIONS)[:] = tape.frames.rotations.ravel()
-        self._spare = np.empty(len(self.free))
+        self._at, spare = self._scratch = np.empty((2, len(self.free)))
+        self._at_address = address(self._at)
+        self._spare_address = self._at_address + spare.nbytes
         self.compiled = Compiled(
             _EVALUATE, address(self.ints), self.lower, self.upper, self.section(k.BEST)
         )
 
     def __call__(self, x: Array, gradient: Array) -> float:
         """Objective at x (n,); its gradient goes into `gradient`, unless that is empty."""
-        at = np.ascontiguousarray(x, dtype=np.float64)
-        slope = gradient if len(gradient) else self._spare
-        return float(_evaluate(len(at), address(at), address(slope), self.compiled.block))
+        self._at[:] = x
+        slope = address(gradient) if len(gradient) else self._spare_address
+        return self._evaluated(slope)
+
+    def _evaluated(self, slope: int) -> float:
+        return float(_evaluate(len(self.free), self._at_address, slope, self.compiled.block))
 
     @property
     def evaluations(self) -> int:
@@ -143,12 +148,13 @@ class Program:
 
         Args: rounds: how many at most. tolerance: relative gain that ends it.
         """
-        at = np.clip(x, self.lower, self.upper)
+        self._at[:] = x
+        self._at.clip(self.lower, self.upper, out=self._at)
         self.section(k.TOLERANCE)[0] = tolerance
         self.ints[self.ints[k.ROUNDS]] = rounds
-        self(at, self._spare)
+        self._evaluated(self._spare_address)
         self.ints[self.ints[k.ROUNDS]] = 0
-        return at
+        return self._at.copy()
 
     def section(self, section: int) -> Array:
         """Return a view of a section of the reals, flat."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,10 +46,11 @@ class Residuals:
 
     def ratios(self, gaps: Array, demands: Mapping[int, Demand], tolerance: Tolerance) -> Ratios:
         """How far each demand is from being met, in tolerances, from the gaps of its rows."""
+        lengths = [math.sqrt(x * x + y * y + z * z) for x, y, z in gaps.tolist()]
         out = {}
         for i, (start, stop) in self.runs.items():
             constraint = demands[i].constraint
-            out[i] = _size(constraint, gaps[start:stop]) / tolerance.of(constraint)
+            out[i] = _size(constraint, lengths[start:stop]) / tolerance.of(constraint)
         return out
 
 
@@ -107,15 +108,14 @@ def _rows(tape: Tape, demand: Demand, weight: float) -> list[Row]:
             raise ValueError(f"no posture meets a {type(constraint).__name__}")
 
 
-def _size(constraint: Constraint, gaps: Array) -> float:
-    """Metres or radians of a constraint's rows."""
-    lengths = np.linalg.norm(gaps, axis=1)
+def _size(constraint: Constraint, lengths: Sequence[float]) -> float:
+    """Metres or radians of a constraint, from the lengths of its rows' gaps."""
     if isinstance(constraint, Place):
-        return float(lengths[0])
+        return lengths[0]
     if isinstance(constraint, Orient) and constraint.relation is Relation.ACROSS:
-        return math.asin(min(float(lengths[0]), 1.0))
+        return math.asin(min(lengths[0], 1.0))
     if isinstance(constraint, Rotate):
-        chord = math.sqrt(float(lengths @ lengths) / 2)
+        chord = math.sqrt(sum(length * length for length in lengths) / 2)
     else:
-        chord = float(lengths.max())
+        chord = max(lengths)
     return 2 * math.asin(min(chord / 2, 1.0))

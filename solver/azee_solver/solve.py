@@ -21,7 +21,7 @@ from azee_solver.anatomy import Part
 from azee_solver.attempt import DEEP, Body, Result, solve_group
 from azee_solver.constraint import Morph, Place, Transpath, Trill
 from azee_solver.demand import Demand
-from azee_solver.evaluate import Evaluator
+from azee_solver.evaluate import evaluator
 from azee_solver.geometry import Side
 from azee_solver.groups import Group, grouped
 from azee_solver.options import SolveOptions
@@ -87,20 +87,20 @@ class _Moment:
     ) -> None:
         self.rig, self.demands, self.options = rig, demands, options
         limits = rig.coordinates
-        evaluator = Evaluator(rig, dominant)
+        measure = evaluator(rig, dominant)
         for demand in demands:
-            evaluator.binding.check(demand.constraint)
+            measure.binding.check(demand.constraint)
         self.constraints = [demand.constraint for demand in demands]
-        presets = evaluator.binding.presets(self.constraints)
+        presets = measure.binding.presets(self.constraints)
         self.start = np.clip(start, limits.lower, limits.upper)
         self.rest = np.clip(reference, limits.lower, limits.upper)
         for v in options.fixed:
             self.rest[v] = self.start[v]
-        self.body = Body(rig, evaluator, self.rest.copy(), presets, options, self.constraints)
+        self.body = Body(rig, measure, self.rest.copy(), presets, options, self.constraints)
         for v, angle in presets.items():
             if v not in options.fixed:
                 self.rest[v] = np.clip(angle, limits.lower[v], limits.upper[v])
-        builder = ProblemBuilder(demands, evaluator.binding, self.body.anatomy)
+        builder = ProblemBuilder(demands, measure.binding, self.body.anatomy)
         self.problems: tuple[Problem, ...] = builder.build()
         self.footprints = builder.footprints
         self.spent_s: dict[tuple[int, ...], float] = {}

@@ -60,6 +60,10 @@ from azee_solver.kernels import COMBINE, CONSTANT, CROSS, POINT, TURN, UNIT, VEC
 Array = NDArray[np.float64]
 
 
+AXES = np.eye(3)
+AXES.setflags(write=False)
+
+
 class DegenerateError(Exception):
     """A direction that nothing free can change has no length."""
 
@@ -83,8 +87,8 @@ class Tape:
 
     def constant(self, value: Array) -> int:
         """Entry of a value that does not move."""
-        x, y, z = (float(v) for v in value)
-        return self._add(CONSTANT, numbers=(x, y, z, 0.0, 0.0), folded=np.array([x, y, z]))
+        x, y, z = value.tolist()
+        return self._add(CONSTANT, numbers=(x, y, z, 0.0, 0.0), folded=value)
 
     def node_point(self, node: int, local: Array) -> int:
         """Entry of a point fixed in a node's frame; in the world's for −1."""
@@ -115,7 +119,7 @@ class Tape:
         if not terms:
             return self.constant(fixed)
         (i, f), (j, g) = terms[0], terms[1] if len(terms) > 1 else (-1, 0.0)
-        x, y, z = (float(v) for v in fixed)
+        x, y, z = fixed.tolist()
         return self._add(COMBINE, i, j, numbers=(x, y, z, f, g))
 
     def unit(self, a: int) -> int:
@@ -143,7 +147,7 @@ class Tape:
         return self._add(TURN, a, axis, numbers=(0.0, 0.0, 0.0, math.cos(angle), math.sin(angle)))
 
     def _leaf(self, code: int, node: int, local: Array) -> int:
-        x, y, z = (float(v) for v in local)
+        x, y, z = local.tolist()
         return self._add(code, node=node, numbers=(x, y, z, 0.0, 0.0))
 
     def _add(
@@ -202,7 +206,7 @@ class Tape:
     def axis(self, bone: Bone, axis: BoneAxis) -> int:
         """Entry of a bone's dir or nrm. Raises BindingError."""
         column = DIR if axis is BoneAxis.DIR else NRM
-        return self.node_vector(self.binding.bone(bone).node, np.eye(3)[column])
+        return self.node_vector(self.binding.bone(bone).node, AXES[column])
 
     def point(self, expr: Point, phase: float = 0.0) -> int:
         """Entry of a point expression. Raises DegenerateError, BindingError.
@@ -256,7 +260,7 @@ class Tape:
     def gaze(self, eye: Bone) -> tuple[int, int]:
         """Entries of an eye's centre and of the direction it looks in. Raises BindingError."""
         node = self.binding.bone(eye).node
-        return self.joint(eye), self.node_vector(node, np.eye(3)[GAZE])
+        return self.joint(eye), self.node_vector(node, AXES[GAZE])
 
     def turned_frame(self, rotate: Rotate) -> Sequence[tuple[int, int]]:
         """Pairs of entries, a column of a bone's frame and what it should be; see `rotation`."""
@@ -277,5 +281,5 @@ class Tape:
             turned = paths.turned(rest.T, paths.unit(axis), rotate.angle_rad).T
             wanted = [self.node_vector(parent, turned[:, k]) for k in range(3)]
         for k in range(3):
-            pairs.append((self.node_vector(nodes.node, np.eye(3)[k]), wanted[k]))
+            pairs.append((self.node_vector(nodes.node, AXES[k]), wanted[k]))
         return pairs

@@ -24,6 +24,8 @@ class Part(Enum):
     ARM = "arm"
     HAND = "hand"
 
+    __hash__ = object.__hash__
+
 
 _PARTS = {
     "back": Part.TRUNK,

@@ -97,10 +97,40 @@ class Body:
     evaluations: int = 0
     anatomy: Anatomy = field(init=False)
     obstacles: Obstacles = field(init=False)
+    _weights: dict[bool, tuple[Array, Array, float, Mapping[int, int]]] = field(
+        init=False, default_factory=dict
+    )
 
     def __post_init__(self) -> None:
         self.anatomy = anatomy(self.rig.chain, self.rig.coordinates)
         self.obstacles = Obstacles(self.evaluator.binding, self.anatomy, self.constraints)
+
+    def cost(self, *, gazes: bool) -> Cost:
+        """Posture and comfort weights: presets hold like constraints, led eyes turn first."""
+        if gazes not in self._weights:
+            self._weights[gazes] = self._weighed(gazes=gazes)
+        reference = np.array(self.reference)
+        reference[list(self.presets)] = list(self.presets.values())
+        return Cost(reference, *self._weights[gazes])
+
+    def _weighed(self, *, gazes: bool) -> tuple[Array, Array, float, Mapping[int, int]]:
+        options, anatomy_ = self.options, self.anatomy
+        stiffness = np.array(self.rig.coordinates.stiffness)
+        comfort = np.full(len(stiffness), options.comfort)
+        if gazes:
+            for v in anatomy_.of(Part.EYES):
+                stiffness[v], comfort[v] = EYE_STIFFNESS, EYE_COMFORT
+            for v in anatomy_.of(Part.HEAD):
+                if anatomy_.names[v].startswith("neck"):
+                    stiffness[v] = NECK_STIFFNESS
+        follows = {} if options.posture == 0 else anatomy_.followers
+        keep = options.posture * stiffness**2
+        keep[list(follows)] *= FOLLOWING_STIFFNESS
+        preset = list(self.presets)
+        keep[preset], comfort[preset] = options.tolerance.angle_rad**-2, 0.0
+        loose = {v: leader for v, leader in follows.items() if v not in self.presets}
+        comfort[list(loose)] = 0.0
+        return keep, comfort, options.overlap, loose
 
     def frames(self, q: Array) -> Frames:
         """Frames of one posture, by the kernels: a hundred times faster than `Chain.frames`."""
@@ -214,7 +244,8 @@ class _Attempt:
             if options.overlap
             else Collisions.none()
         )
-        self.cost = self._cost(free)
+        gazes = any(isinstance(d.constraint, Look | LookAt) for d in demands.values())
+        self.cost = body.cost(gazes=gazes)
         self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, self.cost)
 
     def search(self, at_hand: Iterable[Array], thorough: bool) -> Result:
@@ -313,30 +344,6 @@ class _Attempt:
             self.residuals.undefined,
             self.ease,
         )
-
-    def _cost(self, free: frozenset[int]) -> Cost:
-        """Posture and comfort weights: presets hold like constraints, led eyes turn first."""
-        options, anatomy_ = self.body.options, self.body.anatomy
-        reference = np.array(self.body.reference)
-        stiffness = np.array(self.body.rig.coordinates.stiffness)
-        comfort = np.full(len(reference), options.comfort)
-        if any(isinstance(d.constraint, Look | LookAt) for d in self.demands.values()):
-            for v in anatomy_.of(Part.EYES):
-                stiffness[v], comfort[v] = EYE_STIFFNESS, EYE_COMFORT
-            for v in anatomy_.of(Part.HEAD):
-                if anatomy_.names[v].startswith("neck"):
-                    stiffness[v] = NECK_STIFFNESS
-        follows = {} if options.posture == 0 else anatomy_.followers
-        keep = options.posture * stiffness**2
-        keep[list(follows)] *= FOLLOWING_STIFFNESS
-        for v, angle in self.body.presets.items():
-            if v in free:
-                reference[v] = angle
-                keep[v] = options.tolerance.angle_rad**-2
-                comfort[v] = 0.0
-        loose = {v: leader for v, leader in follows.items() if v not in self.body.presets}
-        comfort[list(loose)] = 0.0
-        return Cost(reference, keep, comfort, options.overlap, loose)
 
     def _level(self, tape: Tape, free: frozenset[int]) -> list[Row]:
         """Rows that keep the head as it was while the trunk moves under it."""

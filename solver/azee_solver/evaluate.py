@@ -263,9 +263,7 @@ class Evaluator:
     ) -> tuple[Array, LengthOrAngle]:
         match constraint:
             case Place(site, point, distance):
-                gap = np.linalg.norm(
-                    self.site(site, frames) - self.target(constraint, frames, phase), axis=-1
-                )
+                gap = paths.length(self.site(site, frames) - self.target(constraint, frames, phase))
                 if not isinstance(point, SitePoint):
                     gap = np.abs(gap - self.scale * distance)
                 return np.asarray(gap), "m"
@@ -330,9 +328,7 @@ def zero_rotation(chain: Chain, nodes: BoneNodes) -> Array:
 def angle(a: Array, b: Array) -> Array:
     """Angle between vectors of any length, (…,) radians; exact near 0 and π; NaN for zero."""
     u, v = paths.unit(a), paths.unit(b)
-    return np.asarray(
-        2 * np.arctan2(np.linalg.norm(u - v, axis=-1), np.linalg.norm(u + v, axis=-1))
-    )
+    return np.asarray(2 * np.arctan2(paths.length(u - v), paths.length(u + v)))
 
 
 def _rotation(axis: Array, angle_rad: float) -> Array:

@@ -21,13 +21,18 @@ def straight(start: Array, end: Array, t: ArrayLike) -> Array:
     return np.asarray(start + u * (end - start))
 
 
+def length(v: Array) -> Array:
+    """Return lengths of vectors (…, 3), (…,)."""
+    return np.asarray(np.sqrt(np.add.reduce(v * v, axis=-1)))
+
+
 def unit(v: Array) -> Array:
     """Return v at length one, NaN where it has no direction."""
-    length = np.sqrt(np.add.reduce(v * v, axis=-1, keepdims=True))
-    if np.all(length > TINY):
-        return np.asarray(v / length)
+    size = length(v)[..., None]
+    if (size > TINY).all():
+        return np.asarray(v / size)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.where(length > TINY, v / length, np.nan)
+        return np.where(size > TINY, v / size, np.nan)
 
 
 def turned(v: Array, axis: Array, angle: ArrayLike) -> Array:

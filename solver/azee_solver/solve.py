@@ -309,7 +309,7 @@ class _Moment:
         explain_s = diagnosis.spent_s
         return SolveReport(
             q,
-            tuple(self._problem_report(p, state.groups) for p in range(len(self.problems))),
+            self._problem_reports(state.groups),
             tuple(constraints),
             self.body.obstacles.overlaps(frames),
             self.body.evaluations,
@@ -321,18 +321,21 @@ class _Moment:
     def _reason(self, diagnosis: Diagnosis, i: int, undefined: bool) -> str:
         return diagnosis.reason(i, undefined) if self.options.explain else "not looked into"
 
-    def _problem_report(self, p: int, groups: Sequence[Group]) -> ProblemReport:
-        problem = self.problems[p]
-        group = next(g for g in groups if p in g.problems)
-        first = group.problems[0]
-        parts = self.body.anatomy.parts
-        moved = {parts[v] for v in group.free}
+    def _problem_reports(self, groups: Sequence[Group]) -> tuple[ProblemReport, ...]:
         dominant = self.body.evaluator.binding.dominant
-        return ProblemReport(
-            problem.name(self.demands, dominant),
-            problem.demands,
-            problem.chain,
-            self.problems[first].name(self.demands, dominant) if first != p else None,
-            tuple(part.value for part in Part if part in moved),
-            solve_s=self.spent_s[group.problems] if first == p else 0.0,
-        )
+        names = [problem.name(self.demands, dominant) for problem in self.problems]
+        out = {}
+        for group in groups:
+            first = group.problems[0]
+            parts = {self.body.anatomy.parts[v] for v in group.free}
+            moved = tuple(part.value for part in Part if part in parts)
+            for p in group.problems:
+                out[p] = ProblemReport(
+                    names[p],
+                    self.problems[p].demands,
+                    self.problems[p].chain,
+                    names[first] if p != first else None,
+                    moved,
+                    solve_s=self.spent_s[group.problems] if p == first else 0.0,
+                )
+        return tuple(out[p] for p in sorted(out))

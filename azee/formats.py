@@ -34,6 +34,8 @@ def cannot_write(path: str | Path, error: OSError) -> Diagnostic:
         return Diagnostic("cannot-write", f"there is no folder `{folder}` for `{path}`", None)
     if isinstance(error, IsADirectoryError):
         return Diagnostic("cannot-write", f"`{path}` is a directory", None)
+    if isinstance(error, NotADirectoryError) and Path(path).is_file():
+        return Diagnostic("cannot-write", f"`{path}` is a file, not a directory", None)
     if isinstance(error, NotADirectoryError):
         return Diagnostic(
             "cannot-write", f"cannot write `{path}`: `{folder}` is not a directory", None

@@ -72,7 +72,7 @@ def import_(
     """
     if (folder is None) == (proposal is None):
         raise click.UsageError("say either -o DIR or --propose MAP.json")
-    with _diagnosed(folder or proposal):
+    with _diagnosed(body, folder or proposal):
         if proposal is not None:
             check_outputs([proposal])
             _propose(body, proposal, quiet=quiet)
@@ -82,14 +82,16 @@ def import_(
 
 
 @contextmanager
-def _diagnosed(target: Path | None) -> Iterator[None]:
+def _diagnosed(body: Path, target: Path | None) -> Iterator[None]:
     from azee_rig.importing.fault import BodyError
 
     try:
         yield
     except BodyError as error:
+        damaged = error.code == "body-unreadable" and body.name not in error.message
+        message = f"`{body}`: {error.message}" if damaged else error.message
         raise AZeeError(
-            Diagnostic(error.code, error.message, None, notes=error.notes, help=error.help)
+            Diagnostic(error.code, message, None, notes=error.notes, help=error.help)
         ) from error
     except OSError as error:
         raise AZeeError(cannot_write(target or Path(), error)) from error

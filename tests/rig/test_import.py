@@ -271,5 +271,12 @@ def test_a_body_that_fails_leaves_the_folder_as_it_was(
     assert "body-folder" in capsys.readouterr().err
     assert run(["rig", "import", str(tmp_path / "notes.glb"), "-o", str(tmp_path / "new")]) == 1
     assert "body-unreadable" in capsys.readouterr().err
+    assert (
+        run(["rig", "import", str(tmp_path / "notes.glb"), "-o", str(tmp_path / "notes.glb")]) == 1
+    )
+    assert "notes.glb` is a file" in capsys.readouterr().err
+    (tmp_path / "notes.glb").write_bytes(b"glTF")
+    assert run(["rig", "import", str(tmp_path / "notes.glb"), "-o", str(tmp_path / "new")]) == 1
+    assert "notes.glb`: the file ends" in capsys.readouterr().err
     assert sorted(p.name for p in tmp_path.iterdir()) == ["kept", "notes.glb"]
     assert [p.name for p in folder.iterdir()] == ["letter.txt"]

@@ -1,4 +1,4 @@
-"""Draws the pictures of pictures-and-films.md, through the commands that the page shows."""
+"""Draws the pictures of pictures-and-films.md and motion.md, through the commands they show."""
 
 from __future__ import annotations
 
@@ -13,10 +13,14 @@ SOURCE = HERE.parent / "examples" / "not-but" / "not-but.azee"
 
 def main() -> int:
     """Draw them; returns the first exit code that is not zero."""
-    sheet, tracks = (HERE / "pictures" / f"not-but-{name}.png" for name in ("sheet", "tracks"))
-    size = ["--size", "500x400"]
-    return run(["render", str(SOURCE), "-o", str(sheet), "--sheet", *size]) or run(
-        ["score", str(SOURCE), "-o", str(tracks), "--tracks"]
+    sheet, tracks, flat = (
+        str(HERE / "pictures" / f"not-but-{name}.png") for name in ("sheet", "tracks", "flat")
+    )
+    score = ["score", str(SOURCE), "--tracks"]
+    return (
+        run(["render", str(SOURCE), "-o", sheet, "--sheet", "--size", "500x400"])
+        or run([*score, "-o", tracks])
+        or run([*score, "-o", flat, "--mode", "flat"])
     )
 
 

@@ -15,6 +15,7 @@ from azee.formats import writing
 
 if TYPE_CHECKING:
     from azee.compilation import Hand
+    from azee.motion.keying import Mode
     from azee.motion.tracks import Track
     from azee.score.score import Score
 
@@ -37,6 +38,13 @@ if TYPE_CHECKING:
     help="Solve it, and show which block keys which part of the body, and when.",
 )
 @click.option(
+    "--mode",
+    type=click.Choice(["tracks", "flat"]),
+    default="tracks",
+    show_default=True,
+    help="What --tracks shows: each block keys what it needs, or all are flattened.",
+)
+@click.option(
     "--media",
     metavar="FILM",
     type=click.Path(path_type=Path),
@@ -53,6 +61,7 @@ def score(
     libraries: Sequence[Path],
     outputs: Sequence[Path],
     tracks: bool,
+    mode: Mode,
     media: Path | None,
     rig: str,
     dominant: Hand,
@@ -68,7 +77,7 @@ def score(
     if not outputs:
         click.echo(tree(found), nl=False)
         return
-    keyed = _tracks(found, rig, dominant) if tracks else ()
+    keyed = _tracks(found, rig, dominant, mode) if tracks else ()
     for path in outputs:
         with writing(path):
             _write(found, path, keyed, media)
@@ -91,10 +100,10 @@ def _write(found: Score, path: Path, keyed: Sequence[Track], media: Path | None)
         write_score_png(found, path, track_rows(keyed))
 
 
-def _tracks(found: Score, rig: str, dominant: Hand) -> Sequence[Track]:
+def _tracks(found: Score, rig: str, dominant: Hand, mode: Mode) -> Sequence[Track]:
     from azee.cli.body import load_body
     from azee.compilation import perform
 
     body = load_body(rig)
     with working("Solving …"):
-        return perform(found, body, dominant=dominant, life=False).animation.tracks
+        return perform(found, body, dominant=dominant, mode=mode, life=False).animation.tracks

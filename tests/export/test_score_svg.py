@@ -209,6 +209,8 @@ def test_the_command_draws_tracks_when_it_is_asked_to(
     text = ["-e", "key 1 (look ^fwd)"]
     assert run(["score", *text, "-o", "a.svg", "-o", "a.png"]) == 0
     assert run(["score", *text, "-o", "b.svg", "--tracks"]) == 0
+    assert run(["score", *text, "-o", "flat.svg", "--tracks", "--mode", "flat"]) == 0
+    assert Path("flat.svg").read_bytes() != Path("b.svg").read_bytes()
     assert run(["score", *text, "--tracks"]) == 2
     with Image.open("a.png") as picture:
         assert picture.width > 500

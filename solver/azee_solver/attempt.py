@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain
@@ -25,7 +26,8 @@ from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
 from azee_solver.program import Cost, Program, Row
 from azee_solver.residuals import Residuals, lower
-from azee_solver.starts import starts
+from azee_solver.result import Result, excess, gains, merit
+from azee_solver.starts import starts, typical
 from azee_solver.tape import Tape
 
 if TYPE_CHECKING:
@@ -47,41 +49,24 @@ BLOCKED = 3
 can move the body out of the way."""
 FOLLOWING_STIFFNESS = 4.0
 """Of last finger joints, in following those before them."""
-GAIN = 0.8
-"""A descent has gained something if it brings the cost below this part of the best."""
 DEEP = 2.0
 """Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
 FIRM = 4.0
 """By what bodies push harder at the end, where steps are exact: soft ones are found around."""
 FAR = 30.0
 """Beyond so many tolerances a miss pulls no harder, once it is known that it must miss."""
+FAR_EASE = 0.3
+"""Part of posture's and comfort's price where a miss is too great to come from them."""
 POLISH, POLISH_EASE, POLISH_OVERLAP = 5.0, 0.01, 0.3
 """Misses below so many tolerances are tried again with posture, comfort and overlap at a part."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Result:
-    """A posture that a group of problems ended in.
-
-    q: (V,). ratios: residual per demand, in tolerances. cost: sum of their squares. overlap_m: of
-    the capsules, deepest. undefined: demands whose target has no direction. eased: demands that
-    were given up in favour of others; they are not in the cost.
-    """
-
-    q: Array
-    ratios: Mapping[int, float]
-    cost: float
-    overlap_m: float
-    undefined: frozenset[int]
-    eased: frozenset[int] = frozenset()
-
-    def missed(self) -> frozenset[int]:
-        """Demands that are not met."""
-        return frozenset(i for i, r in self.ratios.items() if not r <= 1.0) | self.undefined
-
-    def lost(self) -> frozenset[int]:
-        """Demands that are not met and should be: neither without direction nor given up."""
-        return self.missed() - self.undefined - self.eased
+FAINT = 0.1
+"""Part of its weight with which the body comes back where descents have passed through it."""
+UNHINDERED = 3
+"""So many descents through the body, none of which meets all: then it is not in the way."""
+ROUGH = 1e-6
+"""Relative gain that ends descents whose ends are only compared."""
+NEARER = 0.1
+"""By so many tolerances another posture must be nearer to what is out of reach to be preferred."""
 
 
 @dataclass(slots=True)
@@ -188,25 +173,14 @@ def solve_group(
     indices = attempt.program.free
     known = starts(body.rig.coordinates, indices, q, body.options.further_starts)
     best = attempt.search(chain((p[indices] for p in first), () if only_first else known), thorough)
+    if thorough and not only_first and body.options.further_starts:
+        best = attempt.around(best, typical(body.rig.coordinates, indices, unlike=True))
     if to_the_end or not best.lost():
         best = attempt.finished(best)
+    if to_the_end and body.options.further_starts:
+        best = attempt.nearest(best, typical(body.rig.coordinates, indices))
     body.evaluations += attempt.program.evaluations
     return best
-
-
-def _excess(result: Result, options: SolveOptions) -> float:
-    """Overlap beyond what is tolerated, in tolerances."""
-    return max(result.overlap_m - options.overlap_m, 0.0) / options.tolerance.length_m
-
-
-def _merit(result: Result, options: SolveOptions) -> tuple[int, float]:
-    """Return misses, then cost with overlap: the less the better."""
-    return len(result.lost()), result.cost + _excess(result, options) ** 2
-
-
-def _gains(one: tuple[int, float], best: tuple[int, float]) -> bool:
-    """Whether a merit is so much better than the best that looking on may be worth it."""
-    return one[0] < best[0] or (one[0] == best[0] and one[1] < GAIN * best[1])
 
 
 def _turns_head(constraint: Constraint, binding: Binding) -> bool:
@@ -259,65 +233,113 @@ class _Attempt:
                 continue
             tried.add(start.tobytes())
             result = self._polished(self.descend(start))
-            merit = _merit(result, options)
-            if not merit[0] and not _excess(result, options):
+            found = merit(result, options)
+            if not found[0] and not excess(result, options):
                 best = result
                 break
-            gained = best is None or _gains(merit, _merit(best, options))
-            if best is None or merit < _merit(best, options):
+            gained = best is None or gains(found, merit(best, options))
+            if best is None or found < merit(best, options):
                 best = result
-            blocked = _excess(result, options) > 0.0
+            blocked = excess(result, options) > 0.0
             in_vain = 0 if gained else in_vain + (BLOCKED if blocked and not thorough else 1)
             if in_vain >= options.patience * (2 if thorough else 1):
                 break
         assert best is not None
         return best
 
-    def finished(self, result: Result) -> Result:
+    def around(self, best: Result, at_hand: Iterable[Array]) -> Result:
+        """Look on where the body is in the way of what could be met, or return the best there is.
+
+        From every start twice: with the body, and through it, where it comes back little by
+        little and pushes the posture out of itself.
+        """
+        options = self.body.options
+        if not options.overlap or not (best.lost() or excess(best, options)):
+            return best
+        hindered = False
+        for n, start in enumerate(at_hand):
+            with self._weighing(overlap=0.0):
+                through = self.descend(start)
+            hindered = hindered or not through.lost()
+            if n + 1 >= UNHINDERED and not hindered:
+                break
+            with self._weighing(overlap=FAINT):
+                faint = self.descend(through.q[self.program.free])
+            for x in (start, faint.q[self.program.free]):
+                result = self._polished(self.descend(x))
+                best = min(best, result, key=lambda r: merit(r, options))
+                if not best.lost() and not excess(best, options):
+                    return best
+        return best
+
+    def nearest(self, best: Result, at_hand: Iterable[Array]) -> Result:
+        """Look for another posture that comes nearer to what is far out of reach.
+
+        What is best early in a descent is not what is best at its end, so each goes on to there.
+        """
+        if not any(best.ratios[i] > POLISH for i in best.lost()):
+            return best
+        for start in at_hand:
+            other = self.finished(self.descend(start), ROUGH)
+            (misses, cost), (fewest, least) = (
+                merit(result, self.body.options) for result in (other, best)
+            )
+            if misses <= fewest and math.sqrt(cost) < math.sqrt(least) - NEARER:
+                best = other
+        return self.finished(best)
+
+    def finished(self, result: Result, tolerance: float | None = None) -> Result:
         """Go on to the very bottom, so that near targets end in near postures.
 
         Far from what they want, Gauss-Newton steps are short: there NLopt goes on first. What is
         far away pulls less then, so that it does not press the body into itself.
         """
         options, program = self.body.options, self.program
+        tolerance = tolerance or options.finish_tolerance
         weights = program.section(kernels.ROW_NUMBERS).reshape(-1, 2)
-        overlap = program.section(kernels.OVERLAP_WEIGHT)
-        kept, soft = weights.copy(), overlap.copy()
+        kept = weights.copy()
+        ease = FAR_EASE if any(result.ratios[i] > POLISH for i in result.lost()) else 1.0
         x = result.q[program.free]
-        if result.lost():
-            for i in result.lost():
-                start, stop = self.residuals.runs[i]
-                weights[start:stop, 0] *= min(1.0, FAR / result.ratios[i])
-            x = program.descend(
-                x, max_evaluations=options.max_evaluations, tolerance=options.finish_tolerance
-            )
-        overlap *= FIRM
-        x = program.polish(
-            x, rounds=options.finish_work // max(len(x), 1), tolerance=options.finish_tolerance
-        )
-        weights[:], overlap[:] = kept, soft
+        with self._weighing(ease=ease):
+            if result.lost():
+                for i in result.lost():
+                    start, stop = self.residuals.runs[i]
+                    weights[start:stop, 0] *= min(1.0, FAR / result.ratios[i])
+                x = program.descend(x, max_evaluations=options.max_evaluations, tolerance=tolerance)
+            with self._weighing(overlap=FIRM):
+                rounds = options.finish_work // max(len(x), 1)
+                x = program.polish(x, rounds=rounds, tolerance=tolerance)
+        weights[:] = kept
         finished = self._measure(x)
-        if not finished.lost() and _excess(finished, options) <= _excess(result, options):
+        if not finished.lost() and excess(finished, options) <= excess(result, options):
             return finished
-        return min(finished, result, key=lambda r: _merit(r, options))
+        return min(finished, result, key=lambda r: merit(r, options))
 
     def _polished(self, result: Result) -> Result:
         """Descend once more without the price of ease and distance, if a small miss may be that."""
         worst = max((r for i, r in result.ratios.items() if i not in self.ease), default=0.0)
         if not 1.0 < worst < POLISH:
             return result
-        posture = self.program.section(kernels.POSTURE).reshape(-1, 5)
-        overlap = self.program.section(kernels.OVERLAP_WEIGHT)
-        kept, stiff = posture.copy(), overlap.copy()
-        overlap *= POLISH_OVERLAP
-        easy = np.array([v not in self.body.presets for v in self.program.free], dtype=np.bool_)
-        posture[easy, 1] *= POLISH_EASE
-        posture[:, 4] *= POLISH_EASE
-        closer = self.descend(result.q[self.program.free])
-        posture[:], overlap[:] = kept, stiff
+        with self._weighing(ease=POLISH_EASE, overlap=POLISH_OVERLAP):
+            closer = self.descend(result.q[self.program.free])
         if closer.overlap_m > max(result.overlap_m, DEEP * self.body.options.overlap_m):
             return result
-        return min(result, closer, key=lambda r: _merit(r, self.body.options))
+        return min(result, closer, key=lambda r: merit(r, self.body.options))
+
+    @contextmanager
+    def _weighing(self, *, ease: float = 1.0, overlap: float = 1.0) -> Iterator[None]:
+        """Weigh posture and comfort, but no presets, and overlap by shares of what they are."""
+        posture = self.program.section(kernels.POSTURE).reshape(-1, 5)
+        resistance = self.program.section(kernels.OVERLAP_WEIGHT)
+        kept, firm = posture.copy(), resistance.copy()
+        easy = np.array([v not in self.body.presets for v in self.program.free], dtype=np.bool_)
+        posture[easy, 1] *= ease
+        posture[:, 4] *= ease
+        resistance *= overlap
+        try:
+            yield
+        finally:
+            posture[:], resistance[:] = kept, firm
 
     def descend(self, start: Array) -> Result:
         """Return where a descent from a start ends."""

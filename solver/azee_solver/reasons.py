@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver import describe
-from azee_solver.attempt import Body, Result, solve_group
+from azee_solver.attempt import Body, solve_group
 from azee_solver.constraint import Morph, Place
 from azee_solver.demand import Demand
 from azee_solver.footprint import Footprint
+from azee_solver.result import Result
 
 Array = NDArray[np.float64]
 

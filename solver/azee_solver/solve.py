@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from azee_solver import describe
 from azee_solver.anatomy import Part
-from azee_solver.attempt import DEEP, Body, Result, solve_group
+from azee_solver.attempt import DEEP, Body, solve_group
 from azee_solver.constraint import Morph, Place, Transpath, Trill
 from azee_solver.demand import Demand
 from azee_solver.evaluate import evaluator
@@ -28,6 +28,7 @@ from azee_solver.options import SolveOptions
 from azee_solver.problems import Problem, ProblemBuilder, Reach
 from azee_solver.reasons import Diagnosis
 from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
+from azee_solver.result import Result
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -225,8 +226,9 @@ class _Moment:
         """Let problems of groups that miss move more, where that can help; none if nothing can."""
         wider = list(reach)
         for group, result in zip(state.groups, state.results, strict=True):
-            in_the_way = result.overlap_m > DEEP * self.options.overlap_m
             missed = result.missed() - result.undefined
+            tolerated = 1.0 if missed else DEEP
+            in_the_way = result.overlap_m > tolerated * self.options.overlap_m
             if not missed and not in_the_way:
                 continue
             touched = frozenset().union(

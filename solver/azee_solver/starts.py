@@ -2,6 +2,7 @@
 
 Nine ways to hold an arm (forward, across, up; each with three pronations) cover the signing space
 with its solutions: where resting and random starts stuck inside the trunk, most of them did not.
+Hands that touch often need their arms held in two unlike ways.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ ARM_POSTURES = {
 }
 PRONATIONS = (0, 70, -70)
 """Degrees, as in the table of coordinates."""
+UNLIKE = 6
+"""By how many of the nine ways the left arm is ahead of the right one where they are unlike."""
 
 _PRIMES = [n for n in range(2, 400) if all(n % d for d in range(2, n))]
 """Bases of the sequence, one per coordinate."""
@@ -37,23 +40,35 @@ def starts(
     lower, upper = coordinates.lower[free], coordinates.upper[free]
     yield np.clip(at_hand[free], lower, upper)
     yield np.clip(coordinates.idle[free], lower, upper)
-    arms = [
-        (i, name)
-        for i, name in enumerate(_unsided(coordinates.names[v]) for v in free)
-        if name in ARM_POSTURES["forward"] or name == "f_arm.pronation"
-    ]
-    if arms:
-        postures = tuple(ARM_POSTURES.values())
-        for k in range(9):
-            posture, pronation = postures[k % 3], PRONATIONS[(k + k // 3) % 3]
-            x = np.array(coordinates.idle[free])
-            for i, name in arms:
-                x[i] = np.radians(posture.get(name, pronation))
-            yield np.clip(x, lower, upper)
+    yield from typical(coordinates, free)
     for k in range(1, further + 1):
         part = np.array([_halton(k, base) for base in _PRIMES[: len(free)]])
         # The middle of the range: the ends are seldom where a body is at ease.
         yield lower + (0.15 + 0.7 * part) * (upper - lower)
+
+
+def typical(
+    coordinates: Coordinates, free: NDArray[np.int64], *, unlike: bool = False
+) -> Iterator[Array]:
+    """Yield nine ways to hold the arms, (n,) each, all else idle; none where no arm is free.
+
+    Args: unlike: hold the left arm otherwise than the right one; none where not both are free.
+    """
+    arms = [
+        (i, name, coordinates.names[v].split(".")[0].endswith("_L"))
+        for i, v in enumerate(free)
+        if (name := _unsided(coordinates.names[v])) in ARM_POSTURES["forward"]
+        or name == "f_arm.pronation"
+    ]
+    if len({left for _, _, left in arms}) <= unlike:
+        return
+    postures = tuple(ARM_POSTURES.values())
+    for k in range(9):
+        x = np.array(coordinates.idle[free])
+        for i, name, left in arms:
+            n = (k + UNLIKE * (unlike and left)) % 9
+            x[i] = np.radians(postures[n % 3].get(name, PRONATIONS[(n + n // 3) % 3]))
+        yield np.clip(x, coordinates.lower[free], coordinates.upper[free])
 
 
 def _unsided(name: str) -> str:

@@ -1,0 +1,56 @@
+"""What a descent ended in, and which of two ends is better."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver.options import SolveOptions
+
+Array = NDArray[np.float64]
+
+GAIN = 0.8
+"""A descent has gained something if it brings the cost below this part of the best."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Result:
+    """A posture that a group of problems ended in.
+
+    q: (V,). ratios: residual per demand, in tolerances. cost: sum of their squares. overlap_m: of
+    the capsules, deepest. undefined: demands whose target has no direction. eased: demands that
+    were given up in favour of others; they are not in the cost.
+    """
+
+    q: Array
+    ratios: Mapping[int, float]
+    cost: float
+    overlap_m: float
+    undefined: frozenset[int]
+    eased: frozenset[int] = frozenset()
+
+    def missed(self) -> frozenset[int]:
+        """Demands that are not met."""
+        return frozenset(i for i, r in self.ratios.items() if not r <= 1.0) | self.undefined
+
+    def lost(self) -> frozenset[int]:
+        """Demands that are not met and should be: neither without direction nor given up."""
+        return self.missed() - self.undefined - self.eased
+
+
+def excess(result: Result, options: SolveOptions) -> float:
+    """Overlap beyond what is tolerated, in tolerances."""
+    return max(result.overlap_m - options.overlap_m, 0.0) / options.tolerance.length_m
+
+
+def merit(result: Result, options: SolveOptions) -> tuple[int, float]:
+    """Return misses, then cost with overlap: the less the better."""
+    return len(result.lost()), result.cost + excess(result, options) ** 2
+
+
+def gains(one: tuple[int, float], best: tuple[int, float]) -> bool:
+    """Whether a merit is so much better than the best that looking on may be worth it."""
+    return one[0] < best[0] or (one[0] == best[0] and one[1] < GAIN * best[1])

@@ -27,7 +27,7 @@ from azee_solver.options import SolveOptions
 from azee_solver.program import Cost, Program, Row
 from azee_solver.residuals import Residuals, lower
 from azee_solver.result import Result, excess, gains, merit
-from azee_solver.starts import starts, typical
+from azee_solver.starts import starts, straight, typical
 from azee_solver.tape import Tape
 
 if TYPE_CHECKING:
@@ -178,7 +178,7 @@ def solve_group(
     if to_the_end or not best.lost():
         best = attempt.finished(best)
     if to_the_end and body.options.further_starts:
-        best = attempt.nearest(best, typical(body.rig.coordinates, indices))
+        best = attempt.nearest(best, straight(body.rig.coordinates, indices))
     body.evaluations += attempt.program.evaluations
     return best
 
@@ -256,28 +256,31 @@ class _Attempt:
         options = self.body.options
         if not options.overlap or not (best.lost() or excess(best, options)):
             return best
-        hindered = False
-        for n, start in enumerate(at_hand):
-            with self._weighing(overlap=0.0):
-                through = self.descend(start)
-            hindered = hindered or not through.lost()
-            if n + 1 >= UNHINDERED and not hindered:
-                break
-            with self._weighing(overlap=FAINT):
-                faint = self.descend(through.q[self.program.free])
-            for x in (start, faint.q[self.program.free]):
+        starts = list(at_hand)
+        probes = [best.q[self.program.free], *starts[: UNHINDERED - 1]]
+        if not starts or all(self._through(x, 0.0).lost() for x in probes):
+            return best
+        for start in starts:
+            out = self._through(self._through(start, 0.0).q[self.program.free], FAINT)
+            for x in (start, out.q[self.program.free]):
                 result = self._polished(self.descend(x))
                 best = min(best, result, key=lambda r: merit(r, options))
                 if not best.lost() and not excess(best, options):
                     return best
         return best
 
+    def _through(self, start: Array, share: float) -> Result:
+        """Return where a descent ends to which the body gives way but for a share."""
+        with self._weighing(overlap=share):
+            return self.descend(start)
+
     def nearest(self, best: Result, at_hand: Iterable[Array]) -> Result:
         """Look for another posture that comes nearer to what is far out of reach.
 
         What is best early in a descent is not what is best at its end, so each goes on to there.
         """
-        if not any(best.ratios[i] > POLISH for i in best.lost()):
+        places = [i for i in best.lost() if isinstance(self.demands[i].constraint, Place)]
+        if not any(best.ratios[i] > POLISH for i in places):
             return best
         for start in at_hand:
             other = self.finished(self.descend(start), ROUGH)

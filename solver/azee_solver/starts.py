@@ -21,6 +21,16 @@ ARM_POSTURES = {
     "across": {"arm.flexion": 50, "arm.abduction": 0, "arm.rotation": 60, "f_arm.flexion": 100},
     "up": {"arm.flexion": 75, "arm.abduction": 25, "arm.rotation": 10, "f_arm.flexion": 125},
 }
+STRAIGHT = {
+    "forward": {"arm.flexion": 80, "arm.abduction": 0},
+    "aside": {"arm.flexion": 0, "arm.abduction": 110},
+    "up": {"arm.flexion": 150, "arm.abduction": 40},
+    "across": {"arm.flexion": 60, "arm.abduction": -20, "arm.rotation": 40},
+    "aslant": {"arm.flexion": 45, "arm.abduction": 60},
+    "back": {"arm.flexion": -40, "arm.abduction": 30},
+}
+"""Nearly straight arms, for what is far away."""
+BENT = {"f_arm.flexion": 15}
 PRONATIONS = (0, 70, -70)
 """Degrees, as in the table of coordinates."""
 UNLIKE = 6
@@ -54,12 +64,7 @@ def typical(
 
     Args: unlike: hold the left arm otherwise than the right one; none where not both are free.
     """
-    arms = [
-        (i, name, coordinates.names[v].split(".")[0].endswith("_L"))
-        for i, v in enumerate(free)
-        if (name := _unsided(coordinates.names[v])) in ARM_POSTURES["forward"]
-        or name == "f_arm.pronation"
-    ]
+    arms = list(_arms(coordinates, free))
     if len({left for _, _, left in arms}) <= unlike:
         return
     postures = tuple(ARM_POSTURES.values())
@@ -69,6 +74,24 @@ def typical(
             n = (k + UNLIKE * (unlike and left)) % 9
             x[i] = np.radians(postures[n % 3].get(name, PRONATIONS[(n + n // 3) % 3]))
         yield np.clip(x, coordinates.lower[free], coordinates.upper[free])
+
+
+def straight(coordinates: Coordinates, free: NDArray[np.int64]) -> Iterator[Array]:
+    """Yield nearly straight arms all around, (n,) each, all else idle; none if none is free."""
+    arms = list(_arms(coordinates, free))
+    for posture in STRAIGHT.values() if arms else ():
+        x = np.array(coordinates.idle[free])
+        for i, name, _ in arms:
+            x[i] = np.radians((posture | BENT).get(name, 0))
+        yield np.clip(x, coordinates.lower[free], coordinates.upper[free])
+
+
+def _arms(coordinates: Coordinates, free: NDArray[np.int64]) -> Iterator[tuple[int, str, bool]]:
+    """Yield places in `free` of what holds an arm, with names and whether it is the left one."""
+    for i, v in enumerate(free):
+        name = _unsided(coordinates.names[v])
+        if name in ARM_POSTURES["forward"] or name == "f_arm.pronation":
+            yield i, name, coordinates.names[v].split(".")[0].endswith("_L")
 
 
 def _unsided(name: str) -> str:

@@ -19,6 +19,7 @@ from azee_solver.geometry import (
     Bone,
     FreePoint,
     NamedPoint,
+    Nrm,
     Opp,
     Out,
     Side,
@@ -26,6 +27,7 @@ from azee_solver.geometry import (
     Site,
     SitePoint,
     Vec,
+    WorldPoint,
 )
 from azee_solver.penetration import mesh_penetration
 from azee_solver.report import SolveReport
@@ -191,6 +193,26 @@ def test_out_of_reach_is_the_nearest_posture_any_start_finds(signer: Rig) -> Non
         )
         other = solve(signer, asked, dominant=Side.RIGHT, start=begin, reference=idle)
         assert report.constraints[0].residual < other.constraints[0].residual + 0.5e-3
+
+
+def test_hands_touch_close_to_the_body(signer: Rig) -> None:
+    weak, strong = Bone("palm", W), Bone("palm", S)
+    crowded: list[list[Constraint]] = [
+        [  # where arms held in unlike ways keep out of the trunk
+            Place(Site("PA", W), WorldPoint(0.097, 0.997, 0.291)),
+            Place(Site("PA", S), SitePoint(Site("PA", W)), contact=True),
+        ],
+        [  # where the way there leads through the body
+            Place(Site("PA", W), WorldPoint(-0.131, 1.219, 0.25)),
+            Place(Site("I_TIP", S), SitePoint(Site("H_BACK", W)), contact=True),
+            along(NRM, weak, Vec(0.0, 0.0, -1.0)),
+            along(NRM, strong, Opp(Nrm(weak))),
+        ],
+    ]
+    for constraints in crowded:
+        report = run(signer, *constraints)
+        assert not missed(report)
+        assert all(overlap.depth_m <= DEEPEST_M for overlap in report.penetration)
 
 
 def test_a_place_inside_the_chest_is_not_entered(signer: Rig) -> None:

@@ -18,6 +18,7 @@ MODULES = {
     "language": "benchmarks.language_growth",
     "motion": "benchmarks.motion_length",
     "prompt": "benchmarks.prompt",
+    "frames": "benchmarks.frames",
     "continuity": "benchmarks.continuity",
     "penetration": "benchmarks.penetration",
     "solver": "benchmarks.solver_bench",

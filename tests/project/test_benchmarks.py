@@ -12,7 +12,7 @@ import pytest
 from azee_rig.rig import Rig
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
-from benchmarks import solver_bench
+from benchmarks import frames, solver_bench
 from benchmarks.ik.armature import bare_armature, pinned
 from benchmarks.ik.comparison import behind_best, compared, of_solvable, row
 from benchmarks.ik.elsewhere import Environment, NotThere, ordered_steps
@@ -126,3 +126,11 @@ def test_a_goal_knows_whether_it_is_kept() -> None:
     assert Goal("a", 2.0, at_most=1.0).kept is False
     assert Goal("a", 2.0, at_least=2.0).kept is True
     assert Goal("a", 2.0).kept is None
+
+
+@pytest.mark.slow
+def test_frames_are_judged_from_the_report(capsys: pytest.CaptureFixture[str]) -> None:
+    frames.main(["bonjour"])
+    told = capsys.readouterr().out
+    assert "2 clips, " in told
+    assert "0 missed, 0 of them without a reason; 0 clips beyond limits; 0 with skin" in told

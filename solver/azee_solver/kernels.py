@@ -10,10 +10,14 @@ becomes a force and a moment about the world's origin on its node, both are adde
 root, and a coordinate that turns about axis u through o feels u · (M − o × F).
 
 `evaluate` is what NLopt calls, through its C interface or through Python: the same machine code.
-All that a problem is lies in one block of eight-byte words that `program` lays out, read as
+All that a problem is lies in one block of eight-byte words that `layout` lays out, read as
 integers or as reals; the first words say where each section starts. Fast-math is off: the same
 bytes on every run. Nothing here allocates. Signatures are given, so that compiling happens once,
 when this module is first imported, and the result is kept on disk.
+
+numba optimises each function, and again whatever it is linked into: few levels and few variants
+keep the first import short. `_part` has its two types given, for it would be compiled anew for
+every section; what is called from one place only is better left apart, unless it is the outermost.
 
 The file is longer than others because numba keeps compiled code for as long as the file that
 names it stays the same: all that goes into one entry must stand in one file.
@@ -106,7 +110,14 @@ UNDEFINED = 1e300
 """Stands for NaN, so that a line search backs off."""
 
 
-@njit(error_model="numpy")
+@njit(
+    [
+        words(words, types.int64[::1], types.int64)
+        for words in (types.int64[::1], types.float64[::1])
+    ],
+    cache=True,
+    error_model="numpy",
+)
 def _part(array, ints, section):  # type: ignore[no-untyped-def]
     return array[ints[section] : ints[section + 1]]
 
@@ -749,7 +760,7 @@ def _bounded_step(x, bounds, free, damping, gradient, hessian, factor, step):  #
     return foreseen
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", inline="always")
 def _improve(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
     """Polish x (n,) for the block's number of rounds; return f, with its gradient if that is 0."""
     n = x.shape[0]

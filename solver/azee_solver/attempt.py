@@ -108,7 +108,7 @@ class Body:
             for v in anatomy_.of(Part.HEAD):
                 if anatomy_.names[v].startswith("neck"):
                     stiffness[v] = NECK_STIFFNESS
-        follows = {} if options.posture == 0 else anatomy_.followers
+        follows = {} if options.posture == 0 or options.inertia else anatomy_.followers
         keep = options.posture * stiffness**2
         keep[list(follows)] *= FOLLOWING_STIFFNESS
         preset = list(self.presets)

@@ -21,7 +21,10 @@ class SolveOptions:
     finish_tolerance those that the best of all descents ends with. further_starts: of the Halton
     sequence. patience: so many descents in a row that gain nothing end the search; twice as many
     if no wider problem can take over. explain: find out why what misses misses, by solving
-    smaller problems. fixed: coordinates that must not move from the start.
+    smaller problems. fixed: coordinates that must not move from the start. inertia: how many times
+    more than to the reference a posture is drawn to the start, 0 for a posture that stands alone:
+    along a movement it spreads over many steps what would else be a jump, such as a trunk that is
+    no longer needed.
     """
 
     tolerance: Tolerance = field(default_factory=lambda: Tolerance(1e-3, math.radians(0.5)))
@@ -39,3 +42,4 @@ class SolveOptions:
     patience: int = 6
     explain: bool = True
     fixed: frozenset[int] = frozenset()
+    inertia: float = 0.0

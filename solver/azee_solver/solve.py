@@ -8,9 +8,10 @@ on; where no posture meets all, what starts earlier or goes before by its kind w
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,6 +38,8 @@ Array = NDArray[np.float64]
 
 CLEARLY = 0.7
 """Moving more of the body is worth it for misses below this part of the others."""
+BEGUN_RAD = math.radians(1.0)
+"""A coordinate farther than this from the reference has been taken into use by an earlier step."""
 PULL = 0.1
 """With how much of a tolerance's force a constraint that has lost still pulls."""
 
@@ -86,7 +89,8 @@ class _Moment:
         reference: Array,
         options: SolveOptions,
     ) -> None:
-        self.rig, self.demands, self.options = rig, demands, options
+        self.rig, self.demands = rig, demands
+        self.options = replace(options, posture=(1.0 + options.inertia) * options.posture)
         limits = rig.coordinates
         measure = evaluator(rig, dominant)
         for demand in demands:
@@ -95,9 +99,10 @@ class _Moment:
         presets = measure.binding.presets(self.constraints)
         self.start = np.clip(start, limits.lower, limits.upper)
         self.rest = np.clip(reference, limits.lower, limits.upper)
+        self.rest += options.inertia / (1.0 + options.inertia) * (self.start - self.rest)
         for v in options.fixed:
             self.rest[v] = self.start[v]
-        self.body = Body(rig, measure, self.rest.copy(), presets, options, self.constraints)
+        self.body = Body(rig, measure, self.rest.copy(), presets, self.options, self.constraints)
         for v, angle in presets.items():
             if v not in options.fixed:
                 self.rest[v] = np.clip(angle, limits.lower[v], limits.upper[v])
@@ -116,7 +121,7 @@ class _Moment:
         more. Settling gives up at least one constraint in every group that misses, which tells
         beforehand who cannot win.
         """
-        reach = [Reach.OWN] * len(self.problems)
+        reach = [self._begun(problem) for problem in self.problems]
         tried = [(reach, self._in_order(reach, None))]
         while wider := self._widened(*tried[-1]):
             tried.append((wider, self._in_order(wider, tried[-1][1])))
@@ -131,6 +136,15 @@ class _Moment:
             if self._prefers(state, best):
                 best = state
         return best
+
+    def _begun(self, problem: Problem) -> Reach:
+        """Return what a problem may move first: along a movement, what the last step has moved."""
+        if not self.options.inertia:
+            return Reach.OWN
+        away = np.abs(self.start - self.body.reference) > BEGUN_RAD / (1.0 + self.options.inertia)
+        moved = frozenset(np.flatnonzero(away).tolist()) & problem.steps[Reach.ALL]
+        moved -= self.options.fixed | frozenset(self.body.presets)
+        return next(r for r in Reach if moved <= problem.steps[r] or r is Reach.ALL)
 
     def _in_order(
         self, reach: Sequence[Reach], before: _State | None, *, settle: bool = False

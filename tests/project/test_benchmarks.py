@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import subprocess
 from pathlib import Path
@@ -12,7 +13,7 @@ import pytest
 from azee_rig.rig import Rig
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
-from benchmarks import frames, solver_bench
+from benchmarks import continuity, frames, solver_bench
 from benchmarks.ik.armature import bare_armature, pinned
 from benchmarks.ik.comparison import behind_best, compared, of_solvable, row
 from benchmarks.ik.elsewhere import Environment, NotThere, ordered_steps
@@ -101,6 +102,16 @@ def test_ours_is_as_near_to_what_is_out_of_reach_as_any_method(signer: Rig) -> N
     (rows,) = compared("armature", rig, ["unreachable"], 3, chosen, {})
     assert behind_best(rows)["ours, no collision"] <= 0.5e-3
     assert all(met <= of for met, of in of_solvable(rows).values())
+
+
+def test_a_trunk_that_an_arm_could_do_without_comes_back_over_many_steps(signer: Rig) -> None:
+    found = [report for _, report in itertools.islice(continuity.swept(signer, "palm", 9), 25)]
+    assert all(report.met for report in found)
+    postures = np.degrees([report.coordinates for report in found])
+    assert np.max(np.abs(np.diff(postures, axis=0))) <= 2.0
+    trunk = [v for v, name in enumerate(signer.coordinates.names) if name.startswith("back")]
+    away = np.linalg.norm((postures - np.degrees(signer.coordinates.idle))[:, trunk], axis=1)
+    assert 0.0 < away[-1] < away[0]
 
 
 def test_the_tree_is_eleven_ordered_problems_for_others(signer: Rig) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -142,12 +143,19 @@ def perform(
 ) -> Compilation:
     """Make a body play a score.
 
-    Raises: AZeeError: the rig lacks what the score names.
+    Raises: AZeeError: the rig lacks what the score names, or `clip-times`: too many frames.
     """
     from azee.motion.animate import animate
+    from azee.motion.resample import TooManyFramesError, frame_count
 
     if missing := lacks(score, rig, dominant):
         raise AZeeError(*missing)
+    if math.isfinite(fps) and fps > 0:
+        try:
+            frame_count(float(score.duration), fps)
+        except TooManyFramesError as error:
+            hint = "give fewer --fps, or compile one --utterance at a time"
+            raise AZeeError(Diagnostic("clip-times", str(error), None, help=hint)) from error
     side = _side(dominant)
     postures = None
     if solver == "two-level":

@@ -57,15 +57,20 @@ def at_rate(clip: Clip, fps: float, coordinates: Coordinates) -> Clip:
     """
     if not (np.isfinite(fps) and fps > 0):
         raise ValueError(f"{fps} frames per second make no clip")
-    frames = np.floor(clip.duration_s * fps + fps * EVEN_S) + 1
-    if not frames <= MOST_FRAMES:
-        raise TooManyFramesError(
-            f"{clip.duration_s:g} s at {fps:g} frames a second are {frames:g} frames, "
-            f"more than {MOST_FRAMES:,}"
-        )
-    count = int(frames)
+    count = frame_count(clip.duration_s, fps)
     times = clip.times[0] + np.arange(count) / fps
     return sampled(clip, times, coordinates)
+
+
+def frame_count(duration_s: float, fps: float) -> int:
+    """Return how many frames a length holds. Raises: TooManyFramesError: too many."""
+    frames = np.floor(duration_s * fps + fps * EVEN_S) + 1
+    if not frames <= MOST_FRAMES:
+        raise TooManyFramesError(
+            f"{duration_s:g} s at {fps:g} frames a second are {frames:,.0f} frames, "
+            f"more than {MOST_FRAMES:,}"
+        )
+    return int(frames)
 
 
 def rate(clip: Clip) -> float | None:

@@ -111,6 +111,12 @@ def test_an_empty_text_has_no_utterance(text: str, capsys: pytest.CaptureFixture
     assert _files() == ["empty.azee"]
 
 
+def test_more_frames_than_a_machine_holds(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["compile", "-e", "blank 86400", "-o", "day.json"]) == 1
+    assert "error[clip-times]: 86400 s at 30 frames a second" in capsys.readouterr().err
+    assert not Path("day.json").exists()
+
+
 def test_an_utterance_that_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:
     Path("one.azee").write_text("key 1 (look ^fwd)")
     assert run(["score", "one.azee", "--utterance", "2"]) == 1

@@ -335,9 +335,10 @@ class _Attempt:
         posture = self.program.section(kernels.POSTURE).reshape(-1, 5)
         resistance = self.program.section(kernels.OVERLAP_WEIGHT)
         kept, firm = posture.copy(), resistance.copy()
-        easy = np.array([v not in self.body.presets for v in self.program.free], dtype=np.bool_)
-        posture[easy, 1] *= ease
-        posture[:, 4] *= ease
+        if ease != 1.0:
+            easy = np.array([v not in self.body.presets for v in self.program.free], dtype=np.bool_)
+            posture[easy, 1] *= ease
+            posture[:, 4] *= ease
         resistance *= overlap
         try:
             yield

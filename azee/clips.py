@@ -59,14 +59,16 @@ def save_clip(clip: Clip, rig: Rig, path: str | Path) -> None:
 
 
 def _stored(path: Path, rig: Rig | None) -> OpenClip:
-    from azee.motion.clip_file import ClipFileError, read_clip, rig_of
+    from azee.motion.clip_file import ClipFileError, OtherBodyError, read_clip, rig_of
     from azee_rig.load import load_rig
 
     try:
         body = rig or load_rig(_shipped(path, rig_of(path) or SHIPPED))
         return OpenClip(read_clip(path, body), body)
     except ClipFileError as error:
-        raise AZeeError(_no_clip(str(error))) from error
+        other = isinstance(error, OtherBodyError)
+        remedy = "`azee retarget` carries motion over to another body" if other else None
+        raise AZeeError(_no_clip(str(error), remedy)) from error
 
 
 def _shipped(path: Path, name: str) -> str:

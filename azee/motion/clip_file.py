@@ -42,6 +42,10 @@ class ClipFileError(ValueError):
     """A file that is no clip, is damaged, or is one of a body that has other coordinates."""
 
 
+class OtherBodyError(ClipFileError):
+    """A clip moves what the body that is to play it does not have."""
+
+
 def write_clip(clip: Clip, rig: Rig, file: IO[bytes]) -> None:
     """Write a clip; the same clip gives the same bytes, on any day."""
     header = {
@@ -78,14 +82,14 @@ def read_clip(path: str | Path, rig: Rig) -> Clip:
         names, stored = header["coordinates"], arrays["coordinates"]
         foreign = [name for name in names if name not in rig.coordinates.index]
         if foreign:
-            raise ClipFileError(
+            raise OtherBodyError(
                 f"`{path}` moves `{foreign[0]}`, which the rig `{rig.name}` does not have"
             )
         q = np.tile(rig.coordinates.idle, (len(stored), 1))
         q[:, [rig.coordinates.index[name] for name in names]] = stored
         missing = [unit for unit in header["units"] if unit not in rig.units]
         if missing:
-            raise ClipFileError(
+            raise OtherBodyError(
                 f"`{path}` moves the face unit `{missing[0]}`, which the rig `{rig.name}` "
                 "does not have"
             )

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from azee_solver import describe
 from azee_solver.anatomy import Part
-from azee_solver.attempt import DEEP, Body, solve_group
+from azee_solver.attempt import Body, solve_group
 from azee_solver.constraint import Morph, Place, Transpath, Trill
 from azee_solver.demand import Demand
 from azee_solver.evaluate import evaluator
@@ -241,8 +241,7 @@ class _Moment:
         wider = list(reach)
         for group, result in zip(state.groups, state.results, strict=True):
             missed = result.missed() - result.undefined
-            tolerated = 1.0 if missed else DEEP
-            in_the_way = result.overlap_m > tolerated * self.options.overlap_m
+            in_the_way = result.overlap_m > self.options.overlap_m
             if not missed and not in_the_way:
                 continue
             touched = frozenset().union(

@@ -40,7 +40,7 @@ KEPT_SHARE, KEPT_OFF_RAD = 0.03, np.radians(5.0)
 """Up to here, in arm lengths and radians, hands count as where they were."""
 SWEEPS, STEP_RAD = 40, 1e-6
 FASTEST_RAD_S = 25.0
-"""Faster turns are jumps: 1,430°/s, near the largest that was measured of an elbow (docs/motion.md)."""
+"""Faster turns, 1,430°/s, are jumps: about the largest measured of an elbow (docs/motion.md)."""
 SMOOTH_S = 0.15
 """Half the window over which the way of the first solution is smoothed."""
 

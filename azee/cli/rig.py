@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -63,21 +63,14 @@ def sites(body: str, form: str, picture: Path | None) -> None:
 
     Places are those in the posture that the mesh was modelled in.
     """
-    loaded = load_body(body)
-    if picture:
-        _draw("sites", loaded, picture)
-    rows = list(_sites(loaded))
-    if form == "json":
-        show_json({"rig": loaded.name, "sites": rows})
-    elif not picture:
-        _table(
-            ("site", "bone", "left mm", "up mm", "fwd mm", "normal", "description"),
-            [
-                (row["name"], row["bone"], *_mm(row["position_m"]), _triple(row["normal"]),
-                 row["description"])
-                for row in rows
-            ],
-        )  # fmt: skip
+    _list(
+        "sites", load_body(body), form, picture, _sites,
+        ("site", "bone", "left mm", "up mm", "fwd mm", "normal", "description"),
+        lambda row: (
+            row["name"], row["bone"], *_mm(row["position_m"]), _triple(row["normal"]),
+            row["description"],
+        ),
+    )  # fmt: skip
 
 
 @rig.command()
@@ -86,21 +79,14 @@ def sites(body: str, form: str, picture: Path | None) -> None:
 @picture_option("The zero pose with every bone's axes: x red, dir green, nrm blue.")
 def bones(body: str, form: str, picture: Path | None) -> None:
     """List the bones: parent, coordinates, proximal joint, dir and nrm in the zero pose."""
-    loaded = load_body(body)
-    if picture:
-        _draw("bones", loaded, picture)
-    rows = list(_bones(loaded))
-    if form == "json":
-        show_json({"rig": loaded.name, "bones": rows})
-    elif not picture:
-        _table(
-            ("bone", "parent", "left mm", "up mm", "fwd mm", "dir", "nrm", "coordinates"),
-            [
-                (row["name"], row["parent"] or "", *_mm(row["position_m"]), _triple(row["dir"]),
-                 _triple(row["nrm"]), " ".join(row["coordinates"]))
-                for row in rows
-            ],
-        )  # fmt: skip
+    _list(
+        "bones", load_body(body), form, picture, _bones,
+        ("bone", "parent", "left mm", "up mm", "fwd mm", "dir", "nrm", "coordinates"),
+        lambda row: (
+            row["name"], row["parent"] or "", *_mm(row["position_m"]), _triple(row["dir"]),
+            _triple(row["nrm"]), " ".join(row["coordinates"]),
+        ),
+    )  # fmt: skip
 
 
 @rig.command()
@@ -109,19 +95,11 @@ def bones(body: str, form: str, picture: Path | None) -> None:
 @picture_option("Each coordinate of trunk, head and right side at both limits.")
 def limits(body: str, form: str, picture: Path | None) -> None:
     """List how far each coordinate goes, counted from the zero pose."""
-    loaded = load_body(body)
-    if picture:
-        _draw("limits", loaded, picture)
-    c = loaded.coordinates
-    if form == "json":
-        bounds = zip(c.names, c.lower.tolist(), c.upper.tolist(), strict=True)
-        listed = [{"coordinate": n, "lower_rad": a, "upper_rad": b} for n, a, b in bounds]
-        show_json({"rig": loaded.name, "limits": listed})
-    elif not picture:
-        _table(
-            ("coordinate", "from °", "to °"),
-            [(n, _deg(a), _deg(b)) for n, a, b in zip(c.names, c.lower, c.upper, strict=True)],
-        )
+    _list(
+        "limits", load_body(body), form, picture, _limits,
+        ("coordinate", "from °", "to °"),
+        lambda row: (row["coordinate"], _deg(row["lower_rad"]), _deg(row["upper_rad"])),
+    )  # fmt: skip
 
 
 @rig.command()
@@ -135,19 +113,14 @@ def coordinates(body: str, form: str, picture: Path | None) -> None:
             "a coordinate has no place to be drawn at: "
             "`azee rig limits --picture` shows each at both its limits"
         )
-    loaded = load_body(body)
-    rows = list(_coordinates(loaded))
-    if form == "json":
-        show_json({"rig": loaded.name, "coordinates": rows})
-    else:
-        _table(
-            ("coordinate", "bone", "idle °", "bind °", "stiffness", "turns"),
-            [
-                (row["name"], row["bone"], _deg(row["idle_rad"]), _deg(row["bind_rad"]),
-                 f"{row['stiffness']:g}", " ".join(turn["node"] for turn in row["turns"]))
-                for row in rows
-            ],
-        )  # fmt: skip
+    _list(
+        "coordinates", load_body(body), form, None, _coordinates,
+        ("coordinate", "bone", "idle °", "bind °", "stiffness", "turns"),
+        lambda row: (
+            row["name"], row["bone"], _deg(row["idle_rad"]), _deg(row["bind_rad"]),
+            f"{row['stiffness']:g}", " ".join(turn["node"] for turn in row["turns"]),
+        ),
+    )  # fmt: skip
 
 
 @rig.command()
@@ -156,14 +129,10 @@ def coordinates(body: str, form: str, picture: Path | None) -> None:
 @picture_option("Every facial morph that this body can show, at weight 1.")
 def morphs(body: str, form: str, picture: Path | None) -> None:
     """List the morphs: what each moves at weight 1, and those that this body cannot show."""
-    loaded = load_body(body)
-    if picture:
-        _draw("morphs", loaded, picture)
-    rows = list(_morphs(loaded))
-    if form == "json":
-        show_json({"rig": loaded.name, "morphs": rows})
-    elif not picture:
-        _table(("morph", "moves", "description"), [_morph_line(row) for row in rows])
+    _list(
+        "morphs", load_body(body), form, picture, _morphs,
+        ("morph", "moves", "description"), _morph_line,
+    )  # fmt: skip
 
 
 @rig.command()
@@ -252,6 +221,12 @@ def _bones(loaded: Rig) -> Iterator[Row]:
         }
 
 
+def _limits(loaded: Rig) -> Iterator[Row]:
+    c = loaded.coordinates
+    for name, lower, upper in zip(c.names, c.lower.tolist(), c.upper.tolist(), strict=True):
+        yield {"coordinate": name, "lower_rad": lower, "upper_rad": upper}
+
+
 def _coordinates(loaded: Rig) -> Iterator[Row]:
     c, chain = loaded.coordinates, loaded.chain
     for i, name in enumerate(c.names):
@@ -294,6 +269,24 @@ def _morph_line(row: Row) -> tuple[str, str, str]:
     angles = [f"{name} {_deg(angle)}°" for name, angle in row["coordinates_rad"].items()]
     units = [f"{unit} {weight:g}" for unit, weight in row["units"].items()]
     return row["name"], ", ".join(angles + units) or f"— {row['not_shown']}", row["description"]
+
+
+def _list(
+    what: str,
+    loaded: Rig,
+    form: str,
+    picture: Path | None,
+    rows: Callable[[Rig], Iterable[Row]],
+    heads: Sequence[str],
+    line: Callable[[Row], Sequence[str]],
+) -> None:
+    """Draw what a body has, tell it as JSON, or write a table of it."""
+    if picture:
+        _draw(what, loaded, picture)
+    if form == "json":
+        show_json({"rig": loaded.name, what: list(rows(loaded))})
+    elif not picture:
+        _table(heads, [line(row) for row in rows(loaded)])
 
 
 def _draw(what: str, loaded: Rig, path: Path) -> None:

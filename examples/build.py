@@ -40,29 +40,47 @@ def command(source: Path, out: Path) -> list[str]:
     ]
 
 
-def main() -> int:
-    """Build what is asked for; returns the first exit code that is not zero."""
-    parser = argparse.ArgumentParser(description=__doc__)
+def asking(about: str | None) -> argparse.ArgumentParser:
+    """Return a parser of what all scripts of this folder are asked."""
+    parser = argparse.ArgumentParser(description=about)
     parser.add_argument("--out", type=Path, required=True, help="where the outputs go")
     parser.add_argument("--only", metavar="FOLDER", help="only the examples of one folder")
+    return parser
+
+
+def chosen(parser: argparse.ArgumentParser, options: argparse.Namespace) -> list[Path]:
+    """Return the examples that are asked for; leaves with a message where there are none."""
+    found = [source for source in examples() if options.only in (None, source.parent.name)]
+    if not found:
+        parser.error(f"there is no example `{options.only}`")
+    return found
+
+
+def typed(arguments: list[str], folder: Path) -> int:
+    """Run a command that writes into a folder, and tell it; returns its exit code."""
+    folder.mkdir(parents=True, exist_ok=True)
+    print(f"$ azee {shlex.join(arguments)}", flush=True)
+    began = time.perf_counter()
+    code = run(arguments)
+    if not code:
+        print(f"  took {time.perf_counter() - began:.1f} s\n", flush=True)
+    return code
+
+
+def main() -> int:
+    """Build what is asked for; returns the first exit code that is not zero."""
+    parser = asking(__doc__)
     parser.add_argument(
         "--keep-pictures", action="store_true", help="refresh the folders' pictures"
     )
     options = parser.parse_args()
-    chosen = [source for source in examples() if options.only in (None, source.parent.name)]
-    if not chosen:
-        parser.error(f"there is no example `{options.only}`")
-    for source in chosen:
-        (options.out / source.parent.name).mkdir(parents=True, exist_ok=True)
-        arguments = command(source, options.out)
-        print(f"$ azee {shlex.join(arguments)}", flush=True)
-        began = time.perf_counter()
-        if code := run(arguments):
+    for source in chosen(parser, options):
+        folder = options.out / source.parent.name
+        if code := typed(command(source, options.out), folder):
             return code
-        print(f"  took {time.perf_counter() - began:.1f} s\n", flush=True)
         if options.keep_pictures:
             name = source.with_suffix(".png").name
-            shutil.copyfile(options.out / source.parent.name / name, source.with_suffix(".png"))
+            shutil.copyfile(folder / name, source.with_suffix(".png"))
     return 0
 
 

@@ -6,16 +6,11 @@ postures and what is half-way between them, for looking at what the film is too 
 
 from __future__ import annotations
 
-import argparse
 import os
-import shlex
 import sys
-import time
 from pathlib import Path
 
-from build import examples
-
-from azee.cli.main import run
+from build import asking, chosen, typed
 
 
 def command(source: Path, out: Path) -> list[str]:
@@ -28,21 +23,11 @@ def command(source: Path, out: Path) -> list[str]:
 
 def main() -> int:
     """Film what is asked for; returns the first exit code that is not zero."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, required=True, help="where the films go")
-    parser.add_argument("--only", metavar="FOLDER", help="only the examples of one folder")
+    parser = asking(__doc__)
     options = parser.parse_args()
-    chosen = [source for source in examples() if options.only in (None, source.parent.name)]
-    if not chosen:
-        parser.error(f"there is no example `{options.only}`")
-    for source in chosen:
-        (options.out / source.parent.name).mkdir(parents=True, exist_ok=True)
-        arguments = command(source, options.out)
-        print(f"$ azee {shlex.join(arguments)}", flush=True)
-        began = time.perf_counter()
-        if code := run(arguments):
+    for source in chosen(parser, options):
+        if code := typed(command(source, options.out), options.out / source.parent.name):
             return code
-        print(f"  took {time.perf_counter() - began:.1f} s\n", flush=True)
     return 0
 
 

@@ -25,7 +25,7 @@ class Editor:
         self._told = asyncio.Condition()
         self._versions: dict[str, int] = {}
 
-        @client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
+        @client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)  # type: ignore[untyped-decorator]
         async def told(params: types.PublishDiagnosticsParams) -> None:
             async with self._told:
                 self.messages[params.uri] = params
@@ -118,4 +118,4 @@ async def editor(folder: Path) -> AsyncIterator[Editor]:
     finally:
         await client.shutdown_async(None)
         client.exit(None)
-        await client.stop()
+        await client.stop()  # type: ignore[no-untyped-call]

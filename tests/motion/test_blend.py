@@ -63,7 +63,7 @@ def test_linear_is_the_printed_formula() -> None:
             weights = [
                 one.unit_weights[0, clip.units.index(u)] if u in clip.units else 0.0 for u in units
             ]
-            return np.r_[one.coordinates[0], weights]
+            return np.concatenate([one.coordinates[0], np.array(weights, dtype=np.float64)])
 
         return at
 

@@ -29,4 +29,4 @@ def test_it_agrees_with_trimesh(seed: int) -> None:
 def test_a_triangle_without_area_is_its_edges() -> None:
     corners = np.array([[[0.0, 0, 0], [1, 0, 0], [2, 0, 0]], [[1.0, 1, 1]] * 3])
     on = closest_on_triangles(corners, np.array([1.5, 1.0, 0.0]))
-    np.testing.assert_allclose(on, [[1.5, 0, 0], [1, 1, 1]])
+    np.testing.assert_allclose(on, np.array([[1.5, 0.0, 0.0], [1.0, 1.0, 1.0]]))

@@ -11,7 +11,7 @@ from stick_body import stick_body
 from tree_sign import DIR, NRM, UP, S, along, demands, tree
 
 from azee_rig.rig import Rig
-from azee_solver import two_level
+from azee_solver import attempt, two_level
 from azee_solver.constraint import Constraint, Morph, Orient, Place, Relation
 from azee_solver.geometry import Bone, Dir, FreePoint, Side, Site, Vec
 from azee_solver.report import SolveReport
@@ -54,7 +54,7 @@ def test_constraints_are_applied_one_by_one_the_place_first_until_all_are_met(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     applied: list[int] = []
-    original = two_level.solve_group
+    original = attempt.solve_group
 
     def noted(body: Any, asked: Any, *rest: Any, **options: Any) -> Any:
         applied.extend(asked)

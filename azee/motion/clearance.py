@@ -9,6 +9,7 @@ least squares on all depths along the way at once. Keys and times stay as they a
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -261,7 +262,8 @@ class _Search:
         asked = self.q.copy()
         asked[:, self.members] += self.shares * change
         q = np.clip(asked, self.lower, self.upper)
-        depth, slope = self.overlaps.slopes(q, self.reach, pairs, self.members)
+        least = float(wanted.min(initial=math.inf))
+        depth, slope = self.overlaps.slopes(q, self.reach, pairs, self.members, least)
         beyond = depth - wanted
         # A coordinate at its limit does not move, what is far enough does not count.
         moving = (asked == q)[:, None, self.members] & (beyond > 0.0)[..., None]

@@ -6,6 +6,7 @@ judge in the report.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from functools import lru_cache
 
@@ -16,7 +17,7 @@ from azee_solver.anatomy import Part, anatomy
 from azee_solver.collisions import Obstacles
 from azee_solver.constraint import Constraint, Place
 from azee_solver.evaluate import Evaluator
-from azee_solver.parting import Parting
+from azee_solver.kinematics import Parting
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -85,9 +86,17 @@ class Overlaps:
         return self.slopes(q, reach, pairs, np.empty(0, dtype=np.int64))[0]
 
     def slopes(
-        self, q: Array, reach: Array, pairs: Ints | None, coordinates: Ints
+        self,
+        q: Array,
+        reach: Array,
+        pairs: Ints | None,
+        coordinates: Ints,
+        deeper_m: float = -math.inf,
     ) -> tuple[Array, Array]:
-        """Return depths, and how they change with some coordinates, (T, P, n) metres a radian."""
+        """Return depths, and how they change with some coordinates, (T, P, n) metres a radian.
+
+        Args: deeper_m: of pairs that overlap no deeper slopes are left at zero.
+        """
         chosen = np.arange(len(self.pairs)) if pairs is None else pairs
         parting = Parting(self._rig, self.pairs[chosen])
-        return parting.depths(q, reach[chosen], coordinates)
+        return parting.depths(q, reach[chosen], coordinates, deeper_m)

@@ -130,9 +130,7 @@ def _miss(evaluator: Evaluator, problem: Problem, answer: Answer) -> Miss:
 def _overlap(evaluator: Evaluator, problem: Problem, answer: Answer) -> float:
     rig = evaluator.rig
     built = anatomy(rig.chain, rig.coordinates)
-    found = Obstacles(evaluator.binding, built, problem.constraints).overlaps(
-        rig.chain.frames(answer.q)
-    )
+    found = Obstacles(evaluator.binding, built, problem.constraints).overlaps(answer.q)
     return max((overlap.depth_m for overlap in found), default=0.0)
 
 

@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
 from azee_solver.broadphase import Collisions
+from azee_solver.descent import descended
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
@@ -103,10 +104,7 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
     best, worst = idle[free], math.inf
     clock = Clock()
     for start in known:
-        x = program.descend(
-            start, max_evaluations=FULL.max_evaluations, tolerance=FULL.descent_tolerance
-        )
-        x = program.polish(x, rounds=FULL.polish_rounds, tolerance=FULL.polish_tolerance)
+        x = descended(program, start, FULL)
         program(x, np.empty(0))
         ratio = max(residuals.ratios(program.gaps(), asked, FULL.tolerance).values())
         if ratio < worst:

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_rig.chain import Frames
 from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
 from azee_solver.binding import Binding
@@ -78,7 +77,7 @@ class Maker:
         self.index = of("index_R")
         self.fingers = of("index_R", "middle_R", "ring_R", "little_R")
         obstacles = Obstacles(Binding(rig, Side.RIGHT), anatomy(rig.chain, limits), [])
-        self.clear: Callable[[Frames], bool] = lambda frames: not obstacles.overlaps(frames)
+        self.clear: Callable[[Array], bool] = lambda q: not obstacles.overlaps(q)
 
     def classes(self) -> dict[str, Callable[[np.random.Generator], Problem | None]]:
         """Return how to draw a problem of each class; none if that draw gave none."""
@@ -120,7 +119,7 @@ class Maker:
         x[list(self.trunk)] *= TRUNK_SHARE
         q[list(free)] = (self.middle + self.half * x)[list(free)]
         np.clip(q, self.rig.coordinates.lower, self.rig.coordinates.upper, out=q)
-        return q if self.clear(self.rig.chain.frames(q)) else None
+        return q if self.clear(q) else None
 
     def at(self, site: str, side: Side, q: Array) -> Place:
         """Return the placement of a site where a posture has it."""
@@ -187,7 +186,7 @@ class Maker:
             return None
         flat = Flat(self.rig, constraints, moved, (TIGHT[0] / 100, TIGHT[1] / 100))
         q, _ = flat.descend(start)
-        return q if flat.worst(q) <= 1 and self.clear(self.rig.chain.frames(q)) else None
+        return q if flat.worst(q) <= 1 and self.clear(q) else None
 
     def stops(self, rng: np.random.Generator) -> Problem | None:
         """A place and the whole rotation of the hand, two fifths of the joints at a stop."""

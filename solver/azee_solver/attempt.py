@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -21,12 +20,13 @@ from azee_solver.broadphase import Collisions
 from azee_solver.collisions import Obstacles
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
 from azee_solver.demand import Demand
+from azee_solver.descent import descended, pressed, refined, weighing
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
 from azee_solver.program import Cost, Program, Row
 from azee_solver.residuals import Residuals, lower
-from azee_solver.result import Result, excess, gains, merit
+from azee_solver.result import Result, excess, gains, is_again, merit
 from azee_solver.starts import starts, straight, typical
 from azee_solver.tape import Tape
 
@@ -47,6 +47,11 @@ EYE_COMFORT = 300.0
 BLOCKED = 3
 """A descent that ends in the body counts so many times against looking on, where a wider problem
 can move the body out of the way."""
+AGAIN = 4
+"""So many times counts a descent that ends where the best one did, unless that is a near miss: the
+more descents end there, the less likely is it that there is anything better."""
+RETURNS = 9
+"""So many descents that come back to the same end, with the body and through it, end the search."""
 FOLLOWING_STIFFNESS = 4.0
 """Of last finger joints, in following those before them."""
 DEEP = 2.0
@@ -89,6 +94,18 @@ class Body:
     def __post_init__(self) -> None:
         self.anatomy = anatomy(self.rig.chain, self.rig.coordinates)
         self.obstacles = Obstacles(self.evaluator.binding, self.anatomy, self.constraints)
+
+    def ghost(self, reference: Array) -> Body:
+        """Return a body that nothing is in the way of, nor presets, and that is always at ease."""
+        options = replace(
+            self.options,
+            posture=1e-3,
+            comfort=0.0,
+            overlap=0.0,
+            overlap_m=math.inf,
+            further_starts=2,
+        )
+        return replace(self, reference=reference, presets={}, options=options, evaluations=0)
 
     def cost(self, *, gazes: bool) -> Cost:
         """Posture and comfort weights: presets hold like constraints, led eyes turn first."""
@@ -223,25 +240,32 @@ class _Attempt:
         self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, self.cost)
 
     def search(self, at_hand: Iterable[Array], thorough: bool) -> Result:
-        """Return the best end of descents: the first that meets all, or when no more is gained."""
+        """Return the best end of descents: the first that meets all, or when no more is gained.
+
+        After a descent that ended where the best one did the next one goes another way about it.
+        """
         options = self.body.options
         best: Result | None = None
-        in_vain = 0
+        in_vain, again = 0, False
         tried: set[bytes] = set()
         for start in at_hand:
             if start.tobytes() in tried:
                 continue
             tried.add(start.tobytes())
-            result = self._polished(self.descend(start))
+            result = self._polished(self.press(start) if again else self.descend(start))
             found = merit(result, options)
             if not found[0] and not excess(result, options):
                 best = result
                 break
-            gained = best is None or gains(found, merit(best, options))
+            again = best is not None and is_again(found, merit(best, options))
+            if best is None or gains(found, merit(best, options)):
+                in_vain = 0
+            elif again:
+                in_vain += 1 if result.worst() < POLISH else AGAIN
+            else:
+                in_vain += BLOCKED if excess(result, options) and not thorough else 1
             if best is None or found < merit(best, options):
                 best = result
-            blocked = excess(result, options) > 0.0
-            in_vain = 0 if gained else in_vain + (BLOCKED if blocked and not thorough else 1)
             if in_vain >= options.patience * (2 if thorough else 1):
                 break
         assert best is not None
@@ -258,21 +282,25 @@ class _Attempt:
             return best
         starts = list(at_hand)
         probes = [best.q[self.program.free], *starts[: UNHINDERED - 1]]
-        if not starts or all(self._through(x, 0.0).lost() for x in probes):
+        if not starts or all(self._through(x).lost() for x in probes):
             return best
+        returned = 0
         for start in starts:
-            out = self._through(self._through(start, 0.0).q[self.program.free], FAINT)
-            for x in (start, out.q[self.program.free]):
-                result = self._polished(self.descend(x))
+            through = self._through(start).q[self.program.free]
+            with weighing(self.program, overlap=FAINT):
+                out = self.press(through).q[self.program.free]
+            for x in (start, out):
+                result = self._polished(self.press(x))
+                returned += is_again(merit(result, options), merit(best, options))
                 best = min(best, result, key=lambda r: merit(r, options))
-                if not best.lost() and not excess(best, options):
+                if (not best.lost() and not excess(best, options)) or returned >= RETURNS:
                     return best
         return best
 
-    def _through(self, start: Array, share: float) -> Result:
-        """Return where a descent ends to which the body gives way but for a share."""
-        with self._weighing(overlap=share):
-            return self.descend(start)
+    def _through(self, start: Array) -> Result:
+        """Return where a descent ends to which the body gives way."""
+        with weighing(self.program, overlap=0.0):
+            return self.press(start)
 
     def nearest(self, best: Result, at_hand: Iterable[Array]) -> Result:
         """Look for another posture that comes nearer to what is far out of reach.
@@ -299,20 +327,18 @@ class _Attempt:
         """
         options, program = self.body.options, self.program
         tolerance = tolerance or options.finish_tolerance
-        weights = program.section(kernels.ROW_NUMBERS).reshape(-1, 2)
-        kept = weights.copy()
-        ease = FAR_EASE if any(result.ratios[i] > POLISH for i in result.lost()) else 1.0
+        lost = result.lost()
+        misses = np.ones(len(program.rows))
+        for i in lost:
+            misses[slice(*self.residuals.runs[i])] = min(1.0, FAR / result.ratios[i])
+        far = any(result.ratios[i] > POLISH for i in lost)
         x = result.q[program.free]
-        with self._weighing(ease=ease):
-            if result.lost():
-                for i in result.lost():
-                    start, stop = self.residuals.runs[i]
-                    weights[start:stop, 0] *= min(1.0, FAR / result.ratios[i])
+        with weighing(program, misses=misses, ease=self._ease(FAR_EASE) if far else 1.0):
+            if lost:
                 x = program.descend(x, max_evaluations=options.max_evaluations, tolerance=tolerance)
-            with self._weighing(overlap=FIRM):
+            with weighing(program, overlap=FIRM):
                 rounds = options.finish_work // max(len(x), 1)
                 x = program.polish(x, rounds=rounds, tolerance=tolerance)
-        weights[:] = kept
         finished = self._measure(x)
         if not finished.lost() and excess(finished, options) <= excess(result, options):
             return finished
@@ -320,40 +346,26 @@ class _Attempt:
 
     def _polished(self, result: Result) -> Result:
         """Descend once more without the price of ease and distance, if a small miss may be that."""
-        worst = max((r for i, r in result.ratios.items() if i not in self.ease), default=0.0)
-        if not 1.0 < worst < POLISH:
+        if not 1.0 < result.worst() < POLISH:
             return result
-        with self._weighing(ease=POLISH_EASE, overlap=POLISH_OVERLAP):
-            closer = self.descend(result.q[self.program.free])
+        x, options = result.q[self.program.free], self.body.options
+        with weighing(self.program, ease=self._ease(POLISH_EASE), overlap=POLISH_OVERLAP):
+            closer = self._measure(refined(self.program, x, options))
         if closer.overlap_m > max(result.overlap_m, DEEP * self.body.options.overlap_m):
             return result
         return min(result, closer, key=lambda r: merit(r, self.body.options))
 
-    @contextmanager
-    def _weighing(self, *, ease: float = 1.0, overlap: float = 1.0) -> Iterator[None]:
-        """Weigh posture and comfort, but no presets, and overlap by shares of what they are."""
-        posture = self.program.section(kernels.POSTURE).reshape(-1, 5)
-        resistance = self.program.section(kernels.OVERLAP_WEIGHT)
-        kept, firm = posture.copy(), resistance.copy()
-        if ease != 1.0:
-            easy = np.array([v not in self.body.presets for v in self.program.free], dtype=np.bool_)
-            posture[easy, 1] *= ease
-            posture[:, 4] *= ease
-        resistance *= overlap
-        try:
-            yield
-        finally:
-            posture[:], resistance[:] = kept, firm
-
     def descend(self, start: Array) -> Result:
         """Return where a descent from a start ends."""
-        options = self.body.options
-        program = self.program
-        x = program.descend(
-            start, max_evaluations=options.max_evaluations, tolerance=options.descent_tolerance
-        )
-        x = program.polish(x, rounds=options.polish_rounds, tolerance=options.polish_tolerance)
-        return self._measure(x)
+        return self._measure(descended(self.program, start, self.body.options))
+
+    def press(self, start: Array) -> Result:
+        """Return where a descent at the full price ends, on its side of the body."""
+        return self._measure(pressed(self.program, start, self.body.options))
+
+    def _ease(self, share: float) -> Array:
+        """Parts of their price that posture and comfort cost, per free coordinate; presets hold."""
+        return np.array([1.0 if v in self.body.presets else share for v in self.program.free])
 
     def _measure(self, x: Array) -> Result:
         self.program(x, np.empty(0))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from azee_solver.constraint import (
@@ -100,15 +101,21 @@ class Binding:
     def check(self, constraint: Constraint) -> None:
         """Raise BindingError, with the constraint's origin, for the first name the rig lacks."""
         try:
-            if isinstance(constraint, Morph):
-                self.is_skeletal(constraint)
-            for name in _names(constraint):
-                if isinstance(name, Bone):
-                    self.bone(name)
-                else:
-                    self.site(name)
+            _look_up(constraint, self)
         except BindingError as error:
             raise BindingError(error.code, error.name, constraint.origin) from None
+
+
+@lru_cache(maxsize=4096)
+def _look_up(constraint: Constraint, binding: Binding) -> None:
+    """Look all names of a constraint up; the same ones come again from key to key."""
+    if isinstance(constraint, Morph):
+        binding.is_skeletal(constraint)
+    for name in _names(constraint):
+        if isinstance(name, Bone):
+            binding.bone(name)
+        else:
+            binding.site(name)
 
 
 def _names(constraint: Constraint) -> list[Bone | Site]:

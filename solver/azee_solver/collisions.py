@@ -18,6 +18,7 @@ from azee_solver.binding import Binding
 from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Place
 from azee_solver.geometry import Site, SitePoint
+from azee_solver.kinematics import Parting
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -89,18 +90,16 @@ class Obstacles:
         """
         return _changed(self._clearance, frozenset(free), frozenset(unsettled))
 
-    def overlaps(self, frames: Frames) -> tuple[Overlap, ...]:
-        """Pairs that overlap in a posture, deepest first."""
+    def overlaps(self, q: Array) -> tuple[Overlap, ...]:
+        """Pairs that overlap in a posture (V,), deepest first."""
         names = self.rig.capsules.names
-        wanted = self.reach - self._clearance.margin
-        near = np.flatnonzero(_gap_at_least(self.rig, self.pairs, frames) < wanted)
-        if not len(near):
-            return ()
-        excess = wanted[near] - _distances(self.rig, self.pairs[near], frames)
+        reach = self.reach - self._clearance.margin
+        nothing = np.empty(0, dtype=np.int64)
+        depth = Parting(self.rig, self.pairs).depths(q[None], reach, nothing)[0][0]
+        inside = np.flatnonzero(depth > 0.0)
         return tuple(
-            Overlap(names[self.pairs[near[n], 0]], names[self.pairs[near[n], 1]], float(excess[n]))
-            for n in np.argsort(-excess, kind="stable")
-            if excess[n] > 0
+            Overlap(names[self.pairs[n, 0]], names[self.pairs[n, 1]], float(depth[n]))
+            for n in inside[np.argsort(-depth[inside], kind="stable")]
         )
 
 
@@ -228,14 +227,6 @@ def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, Array,
     i, j = capsules.node[pairs].T
     margin = np.where(arm[i] ^ arm[j], MARGIN_M, 0.0)
     return pairs, radii, margin, relative
-
-
-def _gap_at_least(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> Array:
-    """Distance that the axes of pairs of capsules keep at least, by balls around them, (P,)."""
-    a, b = _ends(rig, frames)
-    middle, half = 0.5 * (a + b), 0.5 * np.linalg.norm(b - a, axis=1)
-    i, j = pairs.T
-    return np.asarray(np.linalg.norm(middle[i] - middle[j], axis=1) - half[i] - half[j])
 
 
 def _distances(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> Array:

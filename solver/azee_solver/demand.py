@@ -28,6 +28,8 @@ PRECEDENCE: tuple[frozenset[type], ...] = (
 """Order of constraints that start together, first to last (Sharma 2024). The same group's slides
 of 2022 print another one: it is data, so that either can be had."""
 
+_PLACE = {kind: place for place, kinds in enumerate(PRECEDENCE) for kind in kinds}
+
 
 @dataclass(frozen=True, slots=True)
 class Demand:
@@ -47,6 +49,4 @@ class Demand:
     @property
     def order(self) -> tuple[Fraction, int, int]:
         """Sorting key: start time, then precedence of the kind, then order of writing."""
-        kind = type(self.constraint)
-        place = next(i for i, kinds in enumerate(PRECEDENCE) if kind in kinds)
-        return self.start_s, place, self.rank
+        return self.start_s, _PLACE[type(self.constraint)], self.rank

@@ -7,7 +7,8 @@ of the body that plays. A direction that its operands do not define is NaN, neve
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -327,8 +328,20 @@ def zero_rotation(chain: Chain, nodes: BoneNodes) -> Array:
 
 def angle(a: Array, b: Array) -> Array:
     """Angle between vectors of any length, (…,) radians; exact near 0 and π; NaN for zero."""
+    if a.ndim == b.ndim == 1:
+        return np.asarray(_angle_of_two(a.tolist(), b.tolist()))
     u, v = paths.unit(a), paths.unit(b)
     return np.asarray(2 * np.arctan2(paths.length(u - v), paths.length(u + v)))
+
+
+def _angle_of_two(a: Sequence[float], b: Sequence[float]) -> float:
+    """Do the same for a single pair: numpy takes ten times as long over three numbers."""
+    m, n = math.hypot(*a), math.hypot(*b)
+    if not (m > paths.TINY and n > paths.TINY):
+        return math.nan
+    apart = math.hypot(*(x / m - y / n for x, y in zip(a, b, strict=True)))
+    along = math.hypot(*(x / m + y / n for x, y in zip(a, b, strict=True)))
+    return 2 * math.atan2(apart, along)
 
 
 def _rotation(axis: Array, angle_rad: float) -> Array:

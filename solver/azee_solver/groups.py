@@ -39,7 +39,8 @@ def grouped(
 
     Where dependencies leave a choice, trunk and head come first, then hands before arms, so that
     the arms keep the hands, as they will be, out of the body. A head that nothing else turns is
-    levelled wherever the trunk moves.
+    levelled wherever the trunk moves. Digits that are bent against their own hands are one group:
+    each is a small problem, and laying out a problem takes longer than to solve it.
 
     Args: fixed: coordinates that nothing may move.
     """
@@ -59,8 +60,14 @@ def _grouped(
     if not own & head or all(_is_gaze(p, anatomy) for p in problems if p.steps[0] & head):
         free = [f | (head - fixed) if f & trunk else f for f in free]
 
+    digits = anatomy.of(Part.HAND)
+    apart = [
+        problem.reads <= digits and f <= digits for problem, f in zip(problems, free, strict=True)
+    ]
     together = _Partition(len(problems))
     for i in range(len(problems)):
+        if apart[i]:
+            together.join(apart.index(True), i)
         for j in range(i):
             if free[i] & free[j]:
                 together.join(i, j)

@@ -1,6 +1,6 @@
-"""NLopt, behind two functions: the only module that imports it.
+"""NLopt, the only module that imports it: `minimise` for any Python objective, `Compiled` for code.
 
-`minimise` takes any Python objective. `minimise_compiled` hands NLopt's C interface, which its
+The latter hands NLopt's C interface, which its
 wheel exports, the address of compiled code: no Python runs between evaluations, which saves more
 time than most objectives take, and every number is the same. Where a wheel does not export it the
 same code is called through Python.
@@ -164,54 +164,65 @@ def c_interface() -> ctypes.CDLL | None:
     return library
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class Compiled:
-    """Compiled code that NLopt can call, and the problem it works on.
+    """Compiled code that NLopt can call, the problem it works on, and NLopt's objects for both.
 
-    function: address of an `nlopt_func`. block: address that it is handed. lower, upper: bounds,
-    (n,). best: (1 + n,) where the function keeps the lowest value so far and its point.
+    Making an optimiser takes as long as ten evaluations, so each is made once and kept for all
+    descents on the problem.
     """
 
-    function: int
-    block: int
-    lower: Array
-    upper: Array
-    best: Array
+    def __init__(self, function: int, block: int, lower: Array, upper: Array, best: Array) -> None:
+        """Keep what stays the same.
 
+        Args: function: address of an `nlopt_func`. block: address that it is handed. lower, upper:
+            bounds, (n,). best: (1 + n,) where the function keeps the lowest value so far and its
+            point.
+        """
+        self.function, self.block = function, block
+        self.lower, self.upper, self.best = lower, upper, best
+        self._library = c_interface()
+        self._optimisers: dict[int, int] = {}
 
-def minimise_compiled(
-    problem: Compiled, start: Array, *, max_evaluations: int, tolerance: float
-) -> Minimum | None:
-    """Do what `minimise` does without Python in between; none where NLopt's C cannot be reached.
+    def __del__(self) -> None:
+        for optimiser in self._optimisers.values():
+            self._library.nlopt_destroy(optimiser)  # type: ignore[union-attr]
 
-    The same numbers come of both.
-    """
-    library = c_interface()
-    if library is None:
-        return None
-    best, n = problem.best, len(start)
-    first = np.clip(start, problem.lower, problem.upper)
-    best[0], best[1:] = math.inf, first
-    value = ctypes.c_double()
-    x = np.empty(n)
-    for algorithm in ALGORITHMS:
-        optimiser = library.nlopt_create(algorithm, n)
-        try:
-            library.nlopt_set_lower_bounds(optimiser, address(problem.lower))
-            library.nlopt_set_upper_bounds(optimiser, address(problem.upper))
-            library.nlopt_set_min_objective(optimiser, problem.function, problem.block)
+    def _optimiser(self, library: ctypes.CDLL, algorithm: int) -> int:
+        """Return NLopt's object for an algorithm."""
+        optimiser = self._optimisers.get(algorithm)
+        if optimiser is None:
+            optimiser = library.nlopt_create(algorithm, len(self.lower))
+            if not optimiser:
+                raise MemoryError("NLopt")
+            self._optimisers[algorithm] = optimiser
+            library.nlopt_set_lower_bounds(optimiser, address(self.lower))
+            library.nlopt_set_upper_bounds(optimiser, address(self.upper))
+            library.nlopt_set_min_objective(optimiser, self.function, self.block)
+            library.nlopt_set_vector_storage(optimiser, MEMORY)
+        return optimiser
+
+    def minimise(self, start: Array, *, max_evaluations: int, tolerance: float) -> Minimum | None:
+        """Do what the function `minimise` does; none where NLopt's C cannot be reached.
+
+        The same numbers come of both.
+        """
+        library, best = self._library, self.best
+        if library is None:
+            return None
+        first = start.clip(self.lower, self.upper)
+        best[0], best[1:] = math.inf, first
+        x, value = first.copy(), ctypes.c_double()
+        for algorithm in ALGORITHMS:
+            optimiser = self._optimiser(library, algorithm)
             library.nlopt_set_ftol_rel(optimiser, tolerance)
             library.nlopt_set_maxeval(optimiser, max_evaluations)
-            library.nlopt_set_vector_storage(optimiser, MEMORY)
             x[:] = first
             result = library.nlopt_optimize(optimiser, address(x), ctypes.byref(value))
-        finally:
-            library.nlopt_destroy(optimiser)
-        if result == OUT_OF_MEMORY:
-            raise MemoryError("NLopt")
-        if result > 0 or not np.array_equal(best[1:], first):
-            break
-    return Minimum(np.clip(best[1:], problem.lower, problem.upper), float(best[0]))
+            if result == OUT_OF_MEMORY:
+                raise MemoryError("NLopt")
+            if result > 0 or not np.array_equal(best[1:], first):
+                break
+        return Minimum(best[1:].clip(self.lower, self.upper), float(best[0]))
 
 
 def address(array: NDArray[np.float64] | NDArray[np.int64]) -> int:

@@ -6,6 +6,8 @@ t (…,) broadcast against them, results (…, 3). A path that its operands do n
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -23,11 +25,16 @@ def straight(start: Array, end: Array, t: ArrayLike) -> Array:
 
 def length(v: Array) -> Array:
     """Return lengths of vectors (…, 3), (…,)."""
+    if v.ndim == 1:
+        return np.asarray(math.hypot(*v.tolist()))
     return np.asarray(np.sqrt(np.add.reduce(v * v, axis=-1)))
 
 
 def unit(v: Array) -> Array:
     """Return v at length one, NaN where it has no direction."""
+    if v.ndim == 1:
+        alone = math.hypot(*v.tolist())
+        return np.asarray(v / alone) if alone > TINY else np.full(3, np.nan)
     size = length(v)[..., None]
     if (size > TINY).all():
         return np.asarray(v / size)

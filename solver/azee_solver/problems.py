@@ -16,15 +16,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from azee_solver import describe
 from azee_solver.anatomy import Anatomy, Part, part_of
 from azee_solver.binding import Binding
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
 from azee_solver.demand import Demand
 from azee_solver.footprint import Footprint, footprint
-from azee_solver.geometry import Side
 from azee_solver.ordering import ordered
 
 if TYPE_CHECKING:
@@ -64,10 +62,6 @@ class Problem:
         """Whether the other moves something that this one only reads."""
         return bool(other.steps[its] & (self.reads - self.steps[mine]))
 
-    def name(self, demands: Sequence[Demand], dominant: Side) -> str:
-        """Name it by what its demands, of those that it was built from, speak of."""
-        return describe.problem([demands[i].constraint for i in self.demands], dominant)
-
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
@@ -80,8 +74,8 @@ class _Asked:
     index: int
     role: type
     part: Part | None
-    order: int
     footprint: Footprint
+    order: int
 
     @property
     def rank(self) -> tuple[bool, int]:
@@ -98,16 +92,9 @@ class ProblemBuilder:
     def __init__(self, demands: Sequence[Demand], binding: Binding, anatomy: Anatomy) -> None:
         self.binding, self.anatomy = binding, anatomy
         self._presets = frozenset(binding.presets(demand.constraint for demand in demands))
-        place = {key: n for n, key in enumerate(sorted({demand.order for demand in demands}))}
         self._asked = tuple(
-            _Asked(
-                i,
-                _role(demand.constraint),
-                _part(demand.constraint, binding),
-                place[demand.order],
-                footprint(demand.constraint, binding),
-            )
-            for i, demand in enumerate(demands)
+            _Asked(i, *_asks(demand.constraint, binding), order)
+            for i, (demand, order) in enumerate(zip(demands, _places(demands), strict=True))
             if isinstance(demand.constraint, Place | Orient | Look | LookAt | Rotate)
         )
         self.footprints: dict[int, Footprint] = {a.index: a.footprint for a in self._asked}
@@ -115,6 +102,22 @@ class ProblemBuilder:
     def build(self) -> tuple[Problem, ...]:
         """Return the problems in the order in which they would be solved one by one."""
         return _built(self.binding.rig, self.anatomy, self._asked, self._presets)
+
+
+def _places(demands: Sequence[Demand]) -> list[int]:
+    """Place of each demand among all by their order; the same where nothing tells them apart."""
+    orders = [demand.order for demand in demands]
+    keys: list[tuple[Any, ...]] = list(orders)
+    if all(start == orders[0][0] for start, _, _ in orders):
+        keys = [order[1:] for order in orders]  # exact fractions are slow to sort
+    place = {key: n for n, key in enumerate(sorted(set(keys)))}
+    return [place[key] for key in keys]
+
+
+@lru_cache(maxsize=4096)
+def _asks(constraint: Constraint, binding: Binding) -> tuple[type, Part | None, Footprint]:
+    """Find what a constraint asks of a body; the same ones come again from key to key."""
+    return _role(constraint), _part(constraint, binding), footprint(constraint, binding)
 
 
 def _role(constraint: Constraint) -> type:

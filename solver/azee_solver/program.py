@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from azee_solver import kernels as k
 from azee_solver.broadphase import Collisions
 from azee_solver.layout import Structure, layout
-from azee_solver.nlopt_backend import Compiled, address, minimise, minimise_compiled
+from azee_solver.nlopt_backend import Compiled, address, minimise
 from azee_solver.tape import Tape
 
 if TYPE_CHECKING:
@@ -131,8 +131,8 @@ class Program:
 
     def descend(self, start: Array, *, max_evaluations: int, tolerance: float) -> Array:
         """Return the lowest point (n,) that NLopt comes by from a start, inside the bounds."""
-        found = minimise_compiled(
-            self.compiled, start, max_evaluations=max_evaluations, tolerance=tolerance
+        found = self.compiled.minimise(
+            start, max_evaluations=max_evaluations, tolerance=tolerance
         ) or minimise(
             self,
             start,

@@ -55,10 +55,7 @@ class Diagnosis:
     @cached_property
     def ghost(self) -> Body:
         """A body that nothing is in the way of, nor its own ease."""
-        options = replace(
-            self.body.options, posture=1e-3, comfort=0.0, overlap=0.0, further_starts=2
-        )
-        return replace(self.body, reference=self.q, presets={}, options=options)
+        return self.body.ghost(self.q)
 
     def reason(self, i: int, undefined: bool) -> str:
         """Return why demand i is not met, in one phrase."""
@@ -224,7 +221,7 @@ class Diagnosis:
         return out
 
     def _touching(self, result: Result) -> str:
-        overlaps = self.firm.obstacles.overlaps(self.firm.frames(result.q))
+        overlaps = self.firm.obstacles.overlaps(result.q)
         if not overlaps:
             return "touching"
         return f"{overlaps[0].first} against {overlaps[0].second}"

@@ -7,47 +7,70 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from azee_solver import describe
 from azee_solver.collisions import Overlap
+from azee_solver.constraint import Constraint
 from azee_solver.demand import Demand
 from azee_solver.evaluate import LengthOrAngle
+from azee_solver.geometry import Side
 
 
 @dataclass(frozen=True, slots=True)
 class ProblemReport:
     """One of the ordered problems.
 
-    constraints: indices of its demands, as given. chain: AZee bones from the root to its end.
-    merged_into: name of the problem that it was solved together with, the first of its group;
-    none for that one and for a problem solved alone. moved: parts of the body that were free.
-    iterations: rounds of the two-level method; none where another solved it. solve_s: wall-clock
-    time that it took, with those merged into it; it differs from run to run.
+    constraints: indices of its demands, as given. asked: those demands' constraints. chain: AZee
+    bones from the root to its end. merged: the problem that it was solved together with, the first
+    of its group; none for that one and for a problem solved alone. moved: parts of the body that
+    were free. iterations: rounds of the two-level method; none where another solved it. solve_s:
+    wall-clock time that it took, with those merged into it; it differs from run to run.
     """
 
-    name: str
     constraints: tuple[int, ...]
+    asked: tuple[Constraint, ...]
+    dominant: Side
     chain: tuple[str, ...]
-    merged_into: str | None
+    merged: ProblemReport | None
     moved: tuple[str, ...]
     iterations: int | None = None
     solve_s: float = field(default=0.0, compare=False)
+
+    @property
+    def name(self) -> str:
+        """What its constraints speak of."""
+        return describe.problem([*self.asked], self.dominant)
+
+    @property
+    def merged_into(self) -> str | None:
+        """Name of the problem that it was solved together with."""
+        return None if self.merged is None else self.merged.name
 
 
 @dataclass(frozen=True, slots=True)
 class ConstraintReport:
     """A constraint, measured on the final posture by forward kinematics outside the kernels.
 
-    kind: what it speaks of, such as `place EL_R`. target: what it wants. residual and tolerance
-    in `unit`; NaN where the target has no direction. reason: why it is not met, else none.
+    residual and tolerance in `unit`; NaN where the target has no direction. reason: why it is not
+    met, else none.
     """
 
     demand: Demand
-    kind: str
-    target: str
+    dominant: Side
     residual: float
     unit: LengthOrAngle
     tolerance: float
     met: bool
     reason: str | None
+
+    @property
+    def kind(self) -> str:
+        """What it speaks of, such as `place EL_R`."""
+        return describe.subject(self.demand.constraint, self.dominant)
+
+    @property
+    def target(self) -> str:
+        """What it wants of that."""
+        return describe.target(self.demand.constraint, self.dominant)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

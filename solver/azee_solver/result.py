@@ -16,6 +16,10 @@ GAIN = 0.8
 """A descent has gained something if it brings the cost below this part of the best."""
 
 
+SAME = 0.01
+"""Costs that differ by no more than this part are those of one end."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Result:
     """A posture that a group of problems ended in.
@@ -36,6 +40,10 @@ class Result:
         """Demands that are not met."""
         return frozenset(i for i, r in self.ratios.items() if not r <= 1.0) | self.undefined
 
+    def worst(self) -> float:
+        """Greatest miss of a demand that was not given up, in tolerances."""
+        return max((r for i, r in self.ratios.items() if i not in self.eased), default=0.0)
+
     def lost(self) -> frozenset[int]:
         """Demands that are not met and should be: neither without direction nor given up."""
         return self.missed() - self.undefined - self.eased
@@ -54,3 +62,8 @@ def merit(result: Result, options: SolveOptions) -> tuple[int, float]:
 def gains(one: tuple[int, float], best: tuple[int, float]) -> bool:
     """Whether a merit is so much better than the best that looking on may be worth it."""
     return one[0] < best[0] or (one[0] == best[0] and one[1] < GAIN * best[1])
+
+
+def is_again(one: tuple[int, float], best: tuple[int, float]) -> bool:
+    """Whether two merits are, as far as one can tell, those of one and the same end."""
+    return one[0] == best[0] and abs(one[1] - best[1]) <= SAME * best[1]

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver import describe
+from azee_solver import kinematics
 from azee_solver.anatomy import Part
-from azee_solver.attempt import Body, solve_group
+from azee_solver.attempt import POLISH, Body, solve_group
 from azee_solver.constraint import Morph, Place, Transpath, Trill
 from azee_solver.demand import Demand
 from azee_solver.evaluate import evaluator
@@ -29,7 +29,8 @@ from azee_solver.options import SolveOptions
 from azee_solver.problems import Problem, ProblemBuilder, Reach
 from azee_solver.reasons import Diagnosis
 from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
-from azee_solver.result import Result
+from azee_solver.result import Result, excess
+from azee_solver.settling import giving_way
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -40,8 +41,6 @@ CLEARLY = 0.7
 """Moving more of the body is worth it for misses below this part of the others."""
 BEGUN_RAD = math.radians(1.0)
 """A coordinate farther than this from the reference has been taken into use by an earlier step."""
-PULL = 0.1
-"""With how much of a tolerance's force a constraint that has lost still pulls."""
 
 
 def solve(
@@ -111,6 +110,12 @@ class _Moment:
         self.footprints = builder.footprints
         self.spent_s: dict[tuple[int, ...], float] = {}
         """Time that groups have taken, by their problems."""
+        self.looked_into: frozenset[int] = frozenset()
+        """Constraints that were missed, so that a ghost has been asked whether they can be met."""
+        self.given_up: dict[int, float] = {}
+        """Those that gave way to others even there, and factors of their weights."""
+        self.hopeless: frozenset[int] = frozenset()
+        """Those that were missed even there."""
 
     # Solving ----------------------------------------------------------------------------------
 
@@ -124,7 +129,11 @@ class _Moment:
         reach = [self._begun(problem) for problem in self.problems]
         tried = [(reach, self._in_order(reach, None))]
         while wider := self._widened(*tried[-1]):
+            self._give_up(tried[-1][1])
             tried.append((wider, self._in_order(wider, tried[-1][1])))
+        reach, state = tried[-1]
+        self._give_up(state)
+        tried[-1] = reach, self._in_order(reach, state, thorough=True)
         if not tried[-1][1].missed():
             return tried[-1][1]
         widest = self._in_order(*tried[-1], settle=True)
@@ -147,12 +156,18 @@ class _Moment:
         return next(r for r in Reach if moved <= problem.steps[r] or r is Reach.ALL)
 
     def _in_order(
-        self, reach: Sequence[Reach], before: _State | None, *, settle: bool = False
+        self,
+        reach: Sequence[Reach],
+        before: _State | None,
+        *,
+        thorough: bool = False,
+        settle: bool = False,
     ) -> _State:
         """Solve all groups, each with what the earlier ones reached.
 
         Args: before: a state whose results stand where nothing they depend on has changed.
-            settle: where constraints exclude each other, the later ones give way.
+            thorough: no wider problem will take over: look further in groups that miss. settle:
+            where constraints exclude each other, the later ones give way.
         """
         groups = grouped(self.problems, reach, self.body.anatomy, self.options.fixed)
         q = self.rest.copy()
@@ -161,9 +176,11 @@ class _Moment:
             unsettled = frozenset().union(*(g.free for g in groups[n + 1 :]))
             began = time.perf_counter()
             result = self._standing(group, q, before)
-            if result is None:
+            last = self._is_last(group)
+            if result is None or (thorough and not last and not self._is_well(result)):
                 first = [self.start] if before is None else [before.q, self.start]
-                result = self._together(group, q, unsettled, first)
+                further = (thorough or last) and not self._is_in_vain(group, before)
+                result = self._together(group, q, unsettled, first, thorough=further)
             if settle:
                 result = self._settled(group, q, unsettled, result)
             q = q.copy()
@@ -180,31 +197,54 @@ class _Moment:
             return None
         for other, result in zip(before.groups, before.results, strict=True):
             if (other.problems, other.free) == (group.problems, group.free):
-                return result
+                eased = self.given_up.keys() & self._demands_of(group).keys()
+                return result if result.eased >= eased else None
         return None
 
     def _together(
-        self, group: Group, q: Array, unsettled: frozenset[int], first: Sequence[Array]
+        self,
+        group: Group,
+        q: Array,
+        unsettled: frozenset[int],
+        first: Sequence[Array],
+        *,
+        thorough: bool,
     ) -> Result:
-        """Solve one group, all its constraints with equal right."""
-        last = all(
-            self.problems[p].steps[Reach.ALL] <= group.free | self.options.fixed
-            for p in group.problems
-        )
+        """Solve one group, all its constraints with equal right but those that were given up."""
+        demands = self._demands_of(group)
         return solve_group(
             self.body,
-            self._demands_of(group),
+            demands,
             q,
             group.free,
             unsettled=unsettled,
+            ease={i: ease for i, ease in self.given_up.items() if i in demands},
             first=first,
-            thorough=last,
+            thorough=thorough,
             to_the_end=False,
         )
 
+    def _is_in_vain(self, group: Group, before: _State | None) -> bool:
+        """Whether all that a group has missed so far is missed by a ghost too."""
+        if before is None:
+            return False
+        demands = self._demands_of(group).keys()
+        lost = frozenset().union(*(r.lost() for r in before.results)) & demands
+        return bool(lost) and lost <= self.hopeless
+
+    def _is_last(self, group: Group) -> bool:
+        """Whether nothing more can be given to a group."""
+        return all(
+            self.problems[p].steps[Reach.ALL] <= group.free | self.options.fixed
+            for p in group.problems
+        )
+
+    def _is_well(self, result: Result) -> bool:
+        """Whether nothing is missed that could be met, and nothing is in the way."""
+        return not result.lost() and not excess(result, self.options)
+
     def _settled(self, group: Group, q: Array, unsettled: frozenset[int], result: Result) -> Result:
         """Where constraints exclude each other, let the later ones give way to the earlier."""
-        demands = self._demands_of(group)
 
         def again(ease: Mapping[int, float], begin: Array, *, finish: bool = False) -> Result:
             return solve_group(
@@ -220,17 +260,51 @@ class _Moment:
                 to_the_end=finish,
             )
 
-        ease: dict[int, float] = {}
-        while len(lost := result.lost()) > (not ease):
-            loser = max(lost, key=lambda i: self.demands[i].order)
-            ease[loser] = PULL / result.ratios[loser]
-            result = again(ease, result.q)
-        for i in sorted(ease, key=lambda i: self.demands[i].order)[: len(ease) - 1]:
-            fewer = {k: v for k, v in ease.items() if k != i}
-            other = again(fewer, result.q)
-            if not other.lost():
-                ease, result = fewer, other
-        return again(ease, result.q, finish=True) if result.missed() - result.undefined else result
+        demands = self._demands_of(group)
+        given = {i: ease for i, ease in self.given_up.items() if i in demands}
+        ease, settled = giving_way(result, given, again, lambda i: self.demands[i].order)
+        if settled.lost() or ease != given:
+            settled = again(ease, settled.q, finish=True)
+        return settled
+
+    def _give_up(self, state: _State) -> None:
+        """Find out what cannot be met even by a ghost at ease in any posture.
+
+        Looking on for its sake would be in vain. Near misses are no proof and are looked on for.
+        """
+        lost = frozenset().union(*(r.lost() for r in state.results))
+        if lost <= self.looked_into:
+            return
+        self.looked_into |= lost
+        demands: dict[int, Demand] = {}
+        for group, result in zip(state.groups, state.results, strict=True):
+            if result.lost():
+                demands |= self._demands_of(group)
+        free = frozenset().union(*(self.footprints[i].affected(self.body.anatomy) for i in demands))
+        free -= self.options.fixed
+        if not free:
+            return
+        ghost = self.body.ghost(state.q)
+        ghost.options = replace(ghost.options, finish_work=0)
+
+        def again(ease: Mapping[int, float], begin: Array) -> Result:
+            return solve_group(
+                ghost,
+                demands,
+                state.q,
+                free,
+                ease=ease,
+                first=[begin],
+                thorough=False,
+                to_the_end=False,
+            )
+
+        result = again({}, state.q)
+        if result.worst() > POLISH:
+            ease, result = giving_way(result, {}, again, lambda i: self.demands[i].order)
+            self.given_up |= ease
+            self.hopeless |= result.lost()
+        self.body.evaluations += ghost.evaluations
 
     def _demands_of(self, group: Group) -> dict[int, Demand]:
         indices = sorted(i for p in group.problems for i in self.problems[p].demands)
@@ -240,7 +314,7 @@ class _Moment:
         """Let problems of groups that miss move more, where that can help; none if nothing can."""
         wider = list(reach)
         for group, result in zip(state.groups, state.results, strict=True):
-            missed = result.missed() - result.undefined
+            missed = result.lost()
             in_the_way = result.overlap_m > self.options.overlap_m
             if not missed and not in_the_way:
                 continue
@@ -290,7 +364,7 @@ class _Moment:
         """Measure everything again, outside the kernels, and say why what misses misses."""
         limits = self.rig.coordinates
         q = np.clip(state.q, limits.lower, limits.upper)
-        frames = self.rig.chain.frames(q)
+        frames = kinematics.frames(self.rig.chain, q)
         dominant = self.body.evaluator.binding.dominant
         undefined = frozenset().union(*(r.undefined for r in state.results))
         diagnosis = Diagnosis(self.body, self.demands, self.footprints, q)
@@ -310,8 +384,7 @@ class _Moment:
             constraints.append(
                 ConstraintReport(
                     demand,
-                    describe.subject(constraint, dominant),
-                    describe.target(constraint, dominant),
+                    dominant,
                     float(residual),
                     unit,
                     tolerance,
@@ -326,7 +399,7 @@ class _Moment:
             q,
             self._problem_reports(state.groups),
             tuple(constraints),
-            self.body.obstacles.overlaps(frames),
+            self.body.obstacles.overlaps(q),
             self.body.evaluations,
             time.perf_counter() - began - explain_s,
             free | frozenset(self.body.presets) - self.options.fixed,
@@ -338,18 +411,19 @@ class _Moment:
 
     def _problem_reports(self, groups: Sequence[Group]) -> tuple[ProblemReport, ...]:
         dominant = self.body.evaluator.binding.dominant
-        names = [problem.name(self.demands, dominant) for problem in self.problems]
-        out = {}
+        out: dict[int, ProblemReport] = {}
         for group in groups:
             first = group.problems[0]
             parts = {self.body.anatomy.parts[v] for v in group.free}
             moved = tuple(part.value for part in Part if part in parts)
             for p in group.problems:
+                problem = self.problems[p]
                 out[p] = ProblemReport(
-                    names[p],
-                    self.problems[p].demands,
-                    self.problems[p].chain,
-                    names[first] if p != first else None,
+                    problem.demands,
+                    tuple(self.constraints[i] for i in problem.demands),
+                    dominant,
+                    problem.chain,
+                    out[first] if p != first else None,
                     moved,
                     solve_s=self.spent_s[group.problems] if p == first else 0.0,
                 )

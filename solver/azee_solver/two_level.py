@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver import describe
 from azee_solver.anatomy import Part
 from azee_solver.attempt import Body, solve_group
 from azee_solver.constraint import Morph, Place, Transpath, Trill
@@ -164,8 +163,9 @@ class _Keyframe:
         parts = {self.body.anatomy.parts[v] for v in chain}
         moved = tuple(part.value for part in Part if part in parts)
         return ProblemReport(
-            problem.name(self.demands, self.body.evaluator.binding.dominant),
             problem.demands,
+            tuple(self.constraints[i] for i in problem.demands),
+            self.body.evaluator.binding.dominant,
             problem.chain,
             None,
             moved,
@@ -180,7 +180,7 @@ class _Keyframe:
             self.q,
             tuple(problems),
             tuple(self._constraint_reports()),
-            self.body.obstacles.overlaps(self.rig.chain.frames(self.q)),
+            self.body.obstacles.overlaps(self.q),
             self.body.evaluations,
             time.perf_counter() - began,
             frozenset(self.presets).union(*self.chains) - self.fixed,
@@ -202,8 +202,7 @@ class _Keyframe:
             reports.append(
                 ConstraintReport(
                     demand,
-                    describe.subject(demand.constraint, binding.dominant),
-                    describe.target(demand.constraint, binding.dominant),
+                    binding.dominant,
                     residual,
                     "m" if unit == "m" else "rad",
                     tolerance,

@@ -96,7 +96,7 @@ def test_overlaps_are_reported_deepest_first() -> None:
     q[RIG.coordinates.index["f_arm_R.flexion"]] = np.radians(120)
     q[RIG.coordinates.index["arm_R.rotation"]] = np.radians(90)
     q[RIG.coordinates.index["arm_R.flexion"]] = np.radians(-10)
-    found = obstacles().overlaps(RIG.chain.frames(q))
+    found = obstacles().overlaps(q)
     assert found[0].depth_m > 0.01
     assert {found[0].first, found[0].second} & {"fore_R", "hand_R"}
     depths = [o.depth_m for o in found]

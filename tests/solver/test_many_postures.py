@@ -1,4 +1,4 @@
-"""Depths of capsules along movements: against segments in numpy, and slopes against differences."""
+"""Kinematics of many postures: against plain numpy, and slopes against differences."""
 
 from __future__ import annotations
 
@@ -8,7 +8,31 @@ from stick_body import stick_body
 
 from azee_rig.rig import Rig
 from azee_solver.collisions import segment_distance
-from azee_solver.parting import Parting
+from azee_solver.kinematics import Parting, frames
+
+
+@pytest.mark.parametrize("shape", [(), (3,), (2, 2)])
+def test_frames_are_those_of_plain_numpy(shape: tuple[int, ...], signer: Rig) -> None:
+    limits = signer.coordinates
+    q = np.random.default_rng(5).uniform(limits.lower, limits.upper, (*shape, len(limits)))
+    plain, compiled = signer.chain.frames(q), frames(signer.chain, q)
+    assert compiled.positions.shape == plain.positions.shape
+    np.testing.assert_allclose(compiled.positions, plain.positions, atol=1e-12)
+    np.testing.assert_allclose(compiled.rotations, plain.rotations, atol=1e-12)
+
+
+def test_slopes_of_what_is_not_deep_enough_are_left_out() -> None:
+    rig = stick_body()
+    pairs, q = rig.capsules.pairs, rig.coordinates.idle[None]
+    reach = rig.capsules.radius[pairs].sum(axis=1)
+    every = np.arange(len(rig.coordinates))
+    parting = Parting(rig, pairs)
+    depth, slope = parting.depths(q, reach, every)
+    middle = float(np.median(depth))
+    again, some = parting.depths(q, reach, every, middle)
+    np.testing.assert_array_equal(again, depth)
+    np.testing.assert_array_equal(some, np.where((depth > middle)[..., None], slope, 0.0))
+    assert np.any(some)
 
 
 @pytest.mark.parametrize("body", ["sticks", "signer"])
@@ -24,8 +48,8 @@ def test_depths_and_their_slopes(body: str, signer: Rig) -> None:
     parting = Parting(rig, capsules.pairs)
     depth, slope = parting.depths(q, reach, chosen)
 
-    frames = rig.chain.frames(q)
-    o, R = frames.positions[:, capsules.node], frames.rotations[:, capsules.node]
+    at = rig.chain.frames(q)
+    o, R = at.positions[:, capsules.node], at.rotations[:, capsules.node]
     a, b = (o + (R @ ends[..., None])[..., 0] for ends in (capsules.a, capsules.b))
     i, j = capsules.pairs.T
     for t in range(len(q)):

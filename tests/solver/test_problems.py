@@ -8,6 +8,7 @@ import pytest
 from stick_body import stick_body
 from tree_sign import DIR, FINGERS, NRM, UP, S, W, along, demands, tree
 
+from azee_solver import describe
 from azee_solver.anatomy import anatomy
 from azee_solver.binding import Binding
 from azee_solver.constraint import (
@@ -52,13 +53,17 @@ def names(coordinates: frozenset[int]) -> set[str]:
     return {RIG.coordinates.names[v] for v in coordinates}
 
 
+def named(problem: Problem, asked: list[Demand]) -> str:
+    return describe.problem([asked[i].constraint for i in problem.demands], Side.RIGHT)
+
+
 def test_tree_is_the_paper_s_eleven_problems() -> None:
     asked = tree(thumb=True)
     problems = build(asked)
     assert len(problems) == 11
     assert [p.demands for p in problems[:3]] == [(0, 1, 2), (3,), (4, 5, 6, 7)]
     assert [p.demands for p in problems[3:]] == [(i,) for i in range(8, 16)]
-    called = [problem.name(asked, Side.RIGHT) for problem in problems]
+    called = [named(problem, asked) for problem in problems]
     assert called[0].startswith("place H_BACK_L at")
     assert called[1] == "place EL_R at PA_L"
     assert called[2] == "orient f_arm_R dir, palm_R dir, thumb_R_3 dir, thumb_R_2 nrm"
@@ -69,7 +74,7 @@ def test_tree_is_the_paper_s_eleven_problems() -> None:
 
 def test_the_weak_hand_comes_first_however_it_is_written() -> None:
     asked = list(reversed(tree()))
-    first = [p.name(asked, Side.RIGHT) for p in build(asked)]
+    first = [named(p, asked) for p in build(asked)]
     weak = next(i for i, name in enumerate(first) if "H_BACK_L" in name)
     assert weak < first.index("place EL_R at PA_L")
 
@@ -157,10 +162,24 @@ def test_a_fingertip_s_placement_bends_the_finger_only_where_it_must() -> None:
 def test_problems_that_share_coordinates_are_grouped() -> None:
     problems = build(tree(thumb=True))
     groups = grouped(problems, [Reach.OWN] * 11, BODY)
-    assert {g.problems for g in groups} == {(0,), (1, 2), *((i,) for i in range(3, 11))}
+    assert {g.problems for g in groups} == {(0,), (1, 2), tuple(range(3, 11))}
     assert [g.problems for g in groups].index((0,)) < [g.problems for g in groups].index((1, 2))
     # Fingers before the arm that carries them, so that it can keep them out of the body.
     assert [g.problems for g in groups][-2:] == [(0,), (1, 2)]
+
+
+def test_digits_that_are_turned_against_the_arm_wait_for_their_arm() -> None:
+    """Else one group would need the arm, and the arm the group: it keeps digits clear."""
+    index, little = Bone("index", S, 1), Bone("little", S, 1)
+    asked = demands(
+        along(DIR, index, Dir(Bone("palm", S))),
+        along(DIR, Bone("palm", S), UP),
+        along(DIR, little, Dir(Bone("f_arm", S))),
+    )
+    problems = build(asked)
+    groups = [g.problems for g in grouped(problems, [Reach.OWN] * len(problems), BODY)]
+    spoken_of = [[named(problems[p], asked) for p in group] for group in groups]
+    assert spoken_of == [["orient index_R_1 dir"], ["orient palm_R dir", "orient little_R_1 dir"]]
 
 
 def test_with_the_trunk_free_what_depends_on_each_other_is_solved_together() -> None:

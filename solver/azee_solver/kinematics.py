@@ -1,9 +1,12 @@
-"""How deep capsules overlap in many postures, and how that changes with their coordinates.
+"""Kinematics of many postures at once, compiled: frames of nodes, and how deep capsules overlap.
 
-For whoever bends a movement until nothing is in its way: one kinematics per posture gives depths
-and slopes, where differences would take one per coordinate. The nearest points of two axes slide
-along them as the axes turn, but to first order that does not change their distance: its slope is
-that of the two points as if fixed to their nodes (the envelope theorem).
+Apart from the kernels that optimise: what a posture reaches is measured with these, so that
+nothing is taken for granted which a kernel may get wrong. `Chain.frames` does the same in plain
+numpy, for whoever solves nothing.
+
+The nearest points of two axes slide along them as the axes turn, but to first order that does not
+change their distance: its slope is that of the two points as if fixed to their nodes (the envelope
+theorem).
 """
 
 from __future__ import annotations
@@ -15,13 +18,33 @@ import numpy as np
 from numba import njit, types
 from numpy.typing import NDArray
 
+from azee_rig.chain import Frames
 from azee_solver.kernels import SHORT, _nearest
 
 if TYPE_CHECKING:
+    from azee_rig.chain import Chain
     from azee_rig.rig import Rig
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+_NO_PAIRS: Ints = np.empty((0, 2), dtype=np.int64)
+_NO_NODES: Ints = np.empty(0, dtype=np.int64)
+_NO_ENDS = np.empty((0, 6))
+
+
+def frames(chain: Chain, q: Array) -> Frames:
+    """Return the frames of all nodes in postures (…, V)."""
+    column = np.full(q.shape[-1], -1, dtype=np.int64)
+    postures = q.reshape(-1, q.shape[-1])
+    found, _, _ = _posed(
+        chain, postures, column, _NO_NODES, _NO_ENDS, _NO_PAIRS, np.empty(0), math.inf, 0
+    )
+    batch = q.shape[:-1]
+    return Frames(
+        found.positions.reshape(*batch, *found.positions.shape[1:]),
+        found.rotations.reshape(*batch, *found.rotations.shape[1:]),
+    )
 
 
 class Parting:
@@ -36,35 +59,67 @@ class Parting:
         self._pairs: Ints = np.array(pairs, dtype=np.int64).reshape(-1, 2)
         self._ends = np.hstack([capsules.a, capsules.b])
 
-    def depths(self, q: Array, reach: Array, coordinates: Ints) -> tuple[Array, Array]:
+    def depths(
+        self, q: Array, reach: Array, coordinates: Ints, deeper_m: float = -math.inf
+    ) -> tuple[Array, Array]:
         """Return how deep pairs overlap, (T, P) metres, and its slope, (T, P, n) metres a radian.
 
         Negative depths are distances. Args: q: (T, V). reach: (P,) distance of the axes at which
-        a pair touches. coordinates: (n,) those to which slopes are wanted.
+        a pair touches. coordinates: (n,) those to which slopes are wanted. deeper_m: of pairs
+        that overlap no deeper slopes are left at zero.
         """
-        chain = self._rig.chain
         column = np.full(q.shape[1], -1, dtype=np.int64)
         column[coordinates] = np.arange(len(coordinates))
-        depth = np.empty((len(q), len(self._pairs)))
-        slope = np.zeros((len(q), len(self._pairs), len(coordinates)))
-        _depths(
-            np.array(q, dtype=np.float64),
+        _, depth, slope = _posed(
+            self._rig.chain,
+            q,
             column,
-            chain.parents,
-            chain.offsets,
-            chain.zero,
-            chain.dof_start,
-            chain.dof_axis,
-            chain.dof_scale,
-            chain.dof_coordinate,
             self._rig.capsules.node,
             self._ends,
             self._pairs,
-            np.array(reach, dtype=np.float64),
-            depth,
-            slope,
+            reach,
+            deeper_m if len(coordinates) else math.inf,
+            len(coordinates),
         )
         return depth, slope
+
+
+def _posed(
+    chain: Chain,
+    q: Array,
+    column: Ints,
+    nodes: Ints,
+    ends: Array,
+    pairs: Ints,
+    reach: Array,
+    deeper_m: float,
+    slopes: int,
+) -> tuple[Frames, Array, Array]:
+    """Frames, depths (T, P) and slopes (T, P, n) in postures (T, V)."""
+    count = len(chain.names)
+    positions, rotations = np.empty((len(q), count, 3)), np.empty((len(q), count, 3, 3))
+    depth, slope = np.empty((len(q), len(pairs))), np.zeros((len(q), len(pairs), slopes))
+    _pose(
+        np.array(q, dtype=np.float64, order="C"),
+        column,
+        chain.parents,
+        chain.offsets,
+        chain.zero,
+        chain.dof_start,
+        chain.dof_axis,
+        chain.dof_scale,
+        chain.dof_coordinate,
+        nodes,
+        ends,
+        pairs,
+        np.array(reach, dtype=np.float64),
+        deeper_m,
+        positions,
+        rotations,
+        depth,
+        slope,
+    )
+    return Frames(positions, rotations), depth, slope
 
 
 @njit(error_model="numpy")
@@ -142,34 +197,33 @@ _FROZEN_REALS = types.Array(types.float64, 1, "C", readonly=True)
         types.float64[:, ::1],
         types.int64[:, ::1],
         types.float64[::1],
+        types.float64,
+        types.float64[:, :, ::1],
+        types.float64[:, :, :, ::1],
         types.float64[:, ::1],
         types.float64[:, :, ::1],
     ),
     error_model="numpy",
     cache=True,
 )
-def _depths(  # type: ignore[no-untyped-def]
+def _pose(  # type: ignore[no-untyped-def]
     q, column, parents, offsets, zero, start, axis, scale, coordinate, nodes, local, pairs, reach,
-    depth, slope,
+    deeper, positions, rotations, depth, slope,
 ):  # fmt: skip
-    count = parents.shape[0]
-    positions, rotations = np.empty((count, 3)), np.empty((count, 3, 3))
     axes, ends = np.empty((axis.shape[0], 3)), np.empty((nodes.shape[0], 6))
     first, second, along = np.empty(3), np.empty(3), np.empty(3)
     for t in range(q.shape[0]):
-        _turn_all(
-            q[t], parents, offsets, zero, start, axis, scale, coordinate, positions, rotations,
-            axes,
-        )  # fmt: skip
+        p, R = positions[t], rotations[t]
+        _turn_all(q[t], parents, offsets, zero, start, axis, scale, coordinate, p, R, axes)
         for c in range(nodes.shape[0]):
             node = nodes[c]
             for e in range(2):
                 for i in range(3):
-                    ends[c, 3 * e + i] = positions[node, i]
+                    ends[c, 3 * e + i] = p[node, i]
                     for j in range(3):
-                        ends[c, 3 * e + i] += rotations[node, i, j] * local[c, 3 * e + j]
-        for p in range(pairs.shape[0]):
-            i, j = pairs[p, 0], pairs[p, 1]
+                        ends[c, 3 * e + i] += R[node, i, j] * local[c, 3 * e + j]
+        for n in range(pairs.shape[0]):
+            i, j = pairs[n, 0], pairs[n, 1]
             u, w = _nearest(ends, i, j)
             square = 0.0
             for k in range(3):
@@ -178,16 +232,16 @@ def _depths(  # type: ignore[no-untyped-def]
                 along[k] = first[k] - second[k]
                 square += along[k] * along[k]
             distance = math.sqrt(square)
-            depth[t, p] = reach[p] - distance
-            if distance <= SHORT:
+            depth[t, n] = reach[n] - distance
+            if distance <= SHORT or depth[t, n] <= deeper:
                 continue
             for k in range(3):
                 along[k] /= distance
             _add_slope(
-                nodes[i], first, along, -1.0, column, parents, start, scale, coordinate,
-                positions, axes, slope[t, p],
+                nodes[i], first, along, -1.0, column, parents, start, scale, coordinate, p, axes,
+                slope[t, n],
             )  # fmt: skip
             _add_slope(
-                nodes[j], second, along, 1.0, column, parents, start, scale, coordinate,
-                positions, axes, slope[t, p],
+                nodes[j], second, along, 1.0, column, parents, start, scale, coordinate, p, axes,
+                slope[t, n],
             )  # fmt: skip

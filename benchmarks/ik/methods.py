@@ -112,7 +112,7 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
         if worst <= 1.0:
             break
     rounds = FULL.finish_work // len(best)
-    best = program.polish(best, rounds=rounds, tolerance=FULL.finish_tolerance)
+    best = program.polish(best, rounds=rounds, tolerance=FULL.finish_tolerance, going_on=True)
     seconds = clock.seconds()
     q = idle
     q[free] = best

@@ -246,7 +246,7 @@ class _Attempt:
         """
         options = self.body.options
         best: Result | None = None
-        in_vain, again = 0, False
+        in_vain, returns, again = 0, 0, False
         tried: set[bytes] = set()
         for start in at_hand:
             if start.tobytes() in tried:
@@ -258,8 +258,9 @@ class _Attempt:
                 best = result
                 break
             again = best is not None and is_again(found, merit(best, options))
+            returns += again
             if best is None or gains(found, merit(best, options)):
-                in_vain = 0
+                in_vain, returns = 0, 0
             elif again:
                 in_vain += 1 if result.worst() < POLISH else AGAIN
             else:
@@ -269,7 +270,7 @@ class _Attempt:
             if in_vain >= options.patience * (2 if thorough else 1):
                 break
         assert best is not None
-        return best
+        return replace(best, again=returns)
 
     def around(self, best: Result, at_hand: Iterable[Array]) -> Result:
         """Look on where the body is in the way of what could be met, or return the best there is.
@@ -328,17 +329,17 @@ class _Attempt:
         options, program = self.body.options, self.program
         tolerance = tolerance or options.finish_tolerance
         lost = result.lost()
-        misses = np.ones(len(program.rows))
+        each = np.ones(len(program.rows))
         for i in lost:
-            misses[slice(*self.residuals.runs[i])] = min(1.0, FAR / result.ratios[i])
+            each[slice(*self.residuals.runs[i])] = min(1.0, FAR / result.ratios[i])
         far = any(result.ratios[i] > POLISH for i in lost)
         x = result.q[program.free]
-        with weighing(program, misses=misses, ease=self._ease(FAR_EASE) if far else 1.0):
+        with weighing(program, each=each, ease=self._ease(FAR_EASE) if far else None):
             if lost:
                 x = program.descend(x, max_evaluations=options.max_evaluations, tolerance=tolerance)
             with weighing(program, overlap=FIRM):
                 rounds = options.finish_work // max(len(x), 1)
-                x = program.polish(x, rounds=rounds, tolerance=tolerance)
+                x = program.polish(x, rounds=rounds, tolerance=tolerance, going_on=not lost)
         finished = self._measure(x)
         if not finished.lost() and excess(finished, options) <= excess(result, options):
             return finished

@@ -54,23 +54,38 @@ def refined(program: Program, x: Array, options: SolveOptions) -> Array:
 def weighing(
     program: Program,
     *,
-    misses: float | Array = 1.0,
-    ease: float | Array = 1.0,
+    misses: float = 1.0,
     overlap: float = 1.0,
+    each: Array | None = None,
+    ease: Array | None = None,
 ) -> Iterator[None]:
-    """Let misses, posture with comfort, and overlap cost parts of what they do.
+    """Let misses and overlaps cost parts of what they do.
 
-    Args: misses: of all, or per row. ease: of all, or per free coordinate.
+    Args: each: parts for single rows, (R,). ease: parts that posture and comfort cost, per free
+        coordinate, (n,).
     """
-    sections = (kernels.ROW_NUMBERS, kernels.POSTURE, kernels.OVERLAP_WEIGHT)
-    rows, posture, resistance = (program.section(section) for section in sections)
-    kept = rows.copy(), posture.copy(), resistance.copy()
-    rows[::2] *= misses
+    share, resistance, rows, posture = (
+        program.section(section)
+        for section in (
+            kernels.MISS_SHARE,
+            kernels.OVERLAP_WEIGHT,
+            kernels.ROW_NUMBERS,
+            kernels.POSTURE,
+        )
+    )
+    changed = [share, resistance]
+    changed += [] if each is None else [rows]
+    changed += [] if ease is None else [posture]
+    kept = [section.copy() for section in changed]
+    share *= misses
     resistance *= overlap
-    if np.any(ease != 1.0):
+    if each is not None:
+        rows[::2] *= each
+    if ease is not None:
         posture[1::5] *= ease
         posture[4::5] *= ease
     try:
         yield
     finally:
-        rows[:], posture[:], resistance[:] = kept
+        for section, values in zip(changed, kept, strict=True):
+            section[:] = values

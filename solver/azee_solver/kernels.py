@@ -1,9 +1,10 @@
 """The objective of one inverse-kinematics problem, its gradient and its polish, compiled.
 
-    f(x) = Σ_k w_k e_k²  +  Σ_v λ_v (q_v − ref_v)²  +  Σ_v κ_v max(0, |u_v| − 0.8)²  +  μ Σ overlap²
+    f(x) = σ Σ_k w_k e_k² + Σ_v λ_v (q_v − ref_v)² + Σ_v κ_v max(0, |u_v| − 0.8)² + μ Σ overlap²
 
-with u_v the place of q_v in its range, −1 to 1. Where a coordinate follows another, as a finger's
-last joint follows the one before, ref_v is 2/3 of the other's angle. A residual e_k compares two
+with u_v the place of q_v in its range, −1 to 1, and a share σ that is less than 1 far from the
+goal. Where a coordinate follows another, as a finger's last joint follows the one before, ref_v is
+2/3 of the other's angle. A residual e_k compares two
 entries a and b of a tape: a − b for places and parallels, |a − b| − d for places at a distance,
 a · b for perpendiculars. The gradient costs one backward sweep: every pull on a point or direction
 becomes a force and a moment about the world's origin on its node, both are added up towards the
@@ -73,8 +74,10 @@ MEET, AT_DISTANCE, PERPENDICULAR = range(3)
     RUN_REACH,
     POSTURE,
     BOUNDS,
+    MISS_SHARE,
     OVERLAP_WEIGHT,
     TOLERANCE,
+    DAMPING,
     POSITIONS,
     ROTATIONS,
     AXES,
@@ -93,7 +96,7 @@ MEET, AT_DISTANCE, PERPENDICULAR = range(3)
     FACTOR,
     VECTORS,
     SECTIONS_END,
-) = range(49)
+) = range(51)
 
 COMFORTABLE = 0.8
 """Part of a coordinate's range, about its middle, that costs nothing."""
@@ -104,7 +107,7 @@ FOLLOWING = 2.0 / 3.0
 SHORT = 1e-12
 
 FIRST_DAMPING, MOST_DAMPING = 1e-3, 1e6
-"""Of Gauss-Newton steps: at first, and where they are given up."""
+"""Of Gauss-Newton steps: at first, as parts of the curvature, and where they are given up."""
 
 UNDEFINED = 1e300
 """Stands for NaN, so that a line search backs off."""
@@ -256,12 +259,12 @@ def _rewind(codes, numbers, values, pulls, forces, moments):  # type: ignore[no-
 
 
 @njit(error_model="numpy")
-def _compare(rows, row_numbers, values, pulls):  # type: ignore[no-untyped-def]
-    """Sum of w e² over the residuals, and its pulls on the entries they compare."""
+def _compare(rows, row_numbers, share, values, pulls):  # type: ignore[no-untyped-def]
+    """Sum of σ w e² over the residuals, and its pulls on the entries they compare."""
     f = 0.0
     for k in range(rows.shape[0]):
         kind, a, b = rows[k, 0], rows[k, 1], rows[k, 2]
-        weight = row_numbers[k, 0]
+        weight = share * row_numbers[k, 0]
         if kind == PERPENDICULAR:
             e = 0.0
             for i in range(3):
@@ -336,6 +339,9 @@ def _touch(ints, reals, positions, rotations):  # type: ignore[no-untyped-def]
     Contacts are rows of: one capsule's node, the nearest point of its axis, the other's, the
     unit vector from the second to the first, and the overlap.
     """
+    if ints[PAIRS] == ints[PAIRS + 1]:
+        reals[ints[DEEPEST]] = 0.0
+        return 0, 0.0
     nodes = _part(ints, ints, CAPSULE_NODE)
     local = _part(reals, ints, CAPSULE_ENDS).reshape((nodes.shape[0], 6))
     ends = _part(reals, ints, ENDS).reshape((nodes.shape[0], 6))
@@ -460,6 +466,7 @@ def _value(x, gradient, wanted, ints, reals):  # type: ignore[no-untyped-def]
     f = _compare(
         _part(ints, ints, ROWS).reshape((residuals, 3)),
         _part(reals, ints, ROW_NUMBERS).reshape((residuals, 2)),
+        reals[ints[MISS_SHARE]],
         values,
         pulls,
     )
@@ -640,9 +647,10 @@ def _model(x, contacts, row, gradient, hessian, ints, reals):  # type: ignore[no
     gradient[:] = 0.0
     hessian[:] = 0.0
     rows, row_numbers = _part(ints, ints, ROWS), _part(reals, ints, ROW_NUMBERS)
+    share = reals[ints[MISS_SHARE]]
     for r in range(rows.shape[0] // 3):
         kind, a, b = rows[3 * r], rows[3 * r + 1], rows[3 * r + 2]
-        weight = row_numbers[2 * r]
+        weight = share * row_numbers[2 * r]
         if kind == MEET:
             for i in range(3):
                 for v in range(n):
@@ -771,7 +779,7 @@ def _improve(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
     free = ints[ints[VECTORS] + 4 * n : ints[VECTORS] + 5 * n]
     bounds = _part(reals, ints, BOUNDS).reshape((2, n))
     rounds, tolerance = ints[ints[ROUNDS]], reals[ints[TOLERANCE]]
-    damping, growth, foreseen, value = FIRST_DAMPING, 2.0, 0.0, np.inf
+    damping, growth, foreseen, value = reals[ints[DAMPING]], 2.0, 0.0, np.inf
     for k in range(n):
         trial[k] = x[k]
     while True:
@@ -792,6 +800,7 @@ def _improve(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
             damping *= growth
             growth *= 2.0
         if done or damping > MOST_DAMPING:
+            reals[ints[DAMPING]] = damping
             return value
         rounds -= 1
         foreseen = _bounded_step(x, bounds, free, damping, model, hessian, factor, step)

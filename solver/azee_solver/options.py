@@ -32,13 +32,13 @@ class SolveOptions:
     comfort: float = 3.0
     overlap: float = 0.25e6
     overlap_m: float = 3e-3
-    approach_evaluations: int = 12
+    approach_evaluations: int = 8
     max_evaluations: int = 600
     descent_tolerance: float = 1e-2
     polish_rounds: int = 20
     polish_tolerance: float = 1e-4
     finish_work: int = 2500
-    finish_tolerance: float = 1e-8
+    finish_tolerance: float = 1e-6
     further_starts: int = 6
     patience: int = 6
     explain: bool = True

@@ -143,11 +143,14 @@ class Program:
         )
         return found.x
 
-    def polish(self, x: Array, *, rounds: int, tolerance: float) -> Array:
+    def polish(self, x: Array, *, rounds: int, tolerance: float, going_on: bool = False) -> Array:
         """Return where damped Gauss-Newton steps lead from a point (n,), inside the bounds.
 
-        Args: rounds: how many at most. tolerance: relative gain that ends it.
+        Args: rounds: how many at most. tolerance: relative gain that ends it. going_on: x is
+            where the last call has led: steps are as bold as they were there.
         """
+        if not going_on:
+            self.section(k.DAMPING)[0] = k.FIRST_DAMPING
         self._at[:] = x
         self._at.clip(self.lower, self.upper, out=self._at)
         self.section(k.TOLERANCE)[0] = tolerance

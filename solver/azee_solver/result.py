@@ -26,7 +26,8 @@ class Result:
 
     q: (V,). ratios: residual per demand, in tolerances. cost: sum of their squares. overlap_m: of
     the capsules, deepest. undefined: demands whose target has no direction. eased: demands that
-    were given up in favour of others; they are not in the cost.
+    were given up in favour of others; they are not in the cost. again: how many other descents
+    ended there too.
     """
 
     q: Array
@@ -35,6 +36,7 @@ class Result:
     overlap_m: float
     undefined: frozenset[int]
     eased: frozenset[int] = frozenset()
+    again: int = 0
 
     def missed(self) -> frozenset[int]:
         """Demands that are not met."""

@@ -39,6 +39,8 @@ Array = NDArray[np.float64]
 
 CLEARLY = 0.7
 """Moving more of the body is worth it for misses below this part of the others."""
+AGREED = 2
+"""So many other descents must end where the best one does to tell that nothing meets all."""
 BEGUN_RAD = math.radians(1.0)
 """A coordinate farther than this from the reference has been taken into use by an earlier step."""
 
@@ -270,7 +272,8 @@ class _Moment:
     def _give_up(self, state: _State) -> None:
         """Find out what cannot be met even by a ghost at ease in any posture.
 
-        Looking on for its sake would be in vain. Near misses are no proof and are looked on for.
+        Looking on for its sake would be in vain. A near miss is no proof, nor are ends that differ
+        from start to start.
         """
         lost = frozenset().union(*(r.lost() for r in state.results))
         if lost <= self.looked_into:
@@ -300,7 +303,7 @@ class _Moment:
             )
 
         result = again({}, state.q)
-        if result.worst() > POLISH:
+        if result.worst() > POLISH and result.again >= AGREED:
             ease, result = giving_way(result, {}, again, lambda i: self.demands[i].order)
             self.given_up |= ease
             self.hopeless |= result.lost()

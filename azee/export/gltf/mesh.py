@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -23,20 +25,18 @@ def add_mesh(document: Document, mesh: BodyMesh, name: str) -> int:
     Every primitive has all morph targets, as glTF asks; what a target leaves alone costs nothing.
     The names of the targets stand in the mesh's extras, where viewers look for them.
     """
-    targets = list(morph_targets(mesh))
+    targets = _Targets(list(morph_targets(mesh)))
     primitives = [_primitive(document, mesh, part, targets) for part in mesh.parts]
     return document.add(
         "meshes",
         name=name,
         primitives=primitives,
-        weights=[0.0] * len(targets) if targets else None,
-        extras={"targetNames": list(mesh.units)} if targets else None,
+        weights=[0.0] * len(mesh.units) if mesh.units else None,
+        extras={"targetNames": list(mesh.units)} if mesh.units else None,
     )
 
 
-def _primitive(
-    document: Document, mesh: BodyMesh, part: Part, targets: list[MorphTarget]
-) -> dict[str, Any]:
+def _primitive(document: Document, mesh: BodyMesh, part: Part, targets: _Targets) -> dict[str, Any]:
     used, inverse = np.unique(mesh.triangles[part.start : part.stop], return_inverse=True)
     count = len(used)
     attributes = {
@@ -60,10 +60,10 @@ def _primitive(
             },
         ),
     }
-    if targets:
+    if mesh.units:
         place = np.full(len(mesh.vertices), -1, np.intp)
         place[used] = np.arange(count)
-        primitive["targets"] = _targets(document, targets, place, count)
+        primitive["targets"] = targets.of(document, place, count)
     return primitive
 
 
@@ -111,28 +111,48 @@ def _influences(
     return attributes
 
 
-def _targets(
-    document: Document, targets: list[MorphTarget], place: NDArray[np.intp], count: int
-) -> list[dict[str, int]]:
-    """Morph targets of a primitive, sparse; `place` is each vertex' row in it, or −1."""
-    nothing: list[int] = []
+class _Targets:
+    """Morph targets of a whole mesh, to be shared out among its primitives."""
 
-    def sparse(rows: NDArray[np.intp], values: NDArray[np.float64], bounds: bool) -> int:
-        inside = place[rows] >= 0
-        if inside.any():
-            at = place[rows[inside]]
-            return document.sparse_accessor(
-                count, at, values[inside].astype(np.float32), bounds=bounds
-            )
-        if not nothing:
-            zeros = np.zeros((0, 3), np.float32)
-            nothing.append(document.sparse_accessor(count, rows[:0], zeros, bounds=True))
-        return nothing[0]
+    def __init__(self, targets: list[MorphTarget]) -> None:
+        self._moves = _Changes([(t.moved, t.moves) for t in targets])
+        self._turns = _Changes([(t.turned, t.turns) for t in targets])
 
-    return [
-        {
-            "POSITION": sparse(target.moved, target.moves, True),
-            "NORMAL": sparse(target.turned, target.turns, False),
-        }
-        for target in targets
-    ]
+    def of(self, document: Document, place: NDArray[np.intp], count: int) -> list[dict[str, int]]:
+        """Add those of a primitive, sparse; `place` is each vertex' row in it, or −1."""
+        zeros = np.zeros((0, 3), np.float32)
+        nothing = document.sparse_accessor(count, place[:0], zeros, bounds=True)
+
+        def add(changes: _Changes, bounds: bool) -> list[int]:
+            return [
+                document.sparse_accessor(count, rows, values, bounds=bounds)
+                if len(rows)
+                else nothing
+                for rows, values in changes.inside(place)
+            ]
+
+        return [
+            {"POSITION": moves, "NORMAL": turns}
+            for moves, turns in zip(add(self._moves, True), add(self._turns, False), strict=True)
+        ]
+
+
+class _Changes:
+    """Changes of vertices by many targets, one after the other in one array."""
+
+    def __init__(self, changes: list[tuple[NDArray[np.intp], NDArray[np.float64]]]) -> None:
+        self._starts = np.cumsum([0, *(len(rows) for rows, _ in changes)])
+        self._rows = np.concatenate([rows for rows, _ in changes] or [np.empty(0, np.intp)])
+        self._values = np.vstack([values for _, values in changes] or [np.empty((0, 3))]).astype(
+            np.float32
+        )
+
+    def inside(
+        self, place: NDArray[np.intp]
+    ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.float32]]]:
+        """Yield rows (n,) and values (n, 3) of every target that belong to a primitive."""
+        at = place[self._rows]
+        kept = np.flatnonzero(at >= 0)
+        rows, values = at[kept], self._values[kept]
+        for start, stop in pairwise(np.searchsorted(kept, self._starts).tolist()):
+            yield rows[start:stop], values[start:stop]

@@ -39,22 +39,44 @@ def morph_targets(mesh: BodyMesh) -> Iterator[MorphTarget]:
     triangles that the unit moves are computed again.
     """
     T, count = mesh.triangles, len(mesh.vertices)
-    faces = _cross(mesh.vertices, T)
+    around_of = _Around(T, count)
+    corners = mesh.vertices[T]
+    faces = _crossed(corners)
     sums = _summed(faces, T, count)
     normals = _unit(sums)
+    shift, place = np.zeros((count, 3)), np.empty(count, np.intp)
     for name in mesh.units:
         rows, deltas = mesh.unit(name)
-        vertices = mesh.vertices.copy()
-        vertices[rows] += deltas
-        moved = _marked(rows, count)
-        touched = T[moved[T[:, 0]] | moved[T[:, 1]] | moved[T[:, 2]]]
-        change = _cross(vertices, touched) - _cross(mesh.vertices, touched)
-        around = np.flatnonzero(_marked(touched.ravel(), count))
-        turns = _unit(sums[around] + _summed(change, touched, count)[around]) - normals[around]
+        shift[rows] = deltas
+        touched = around_of(rows)
+        triangles = T[touched]
+        change = _crossed(corners[touched] + shift[triangles]) - faces[touched]
+        shift[rows] = 0.0
+        around = np.flatnonzero(_marked(triangles.ravel(), count))
+        place[around] = np.arange(len(around))
+        turned = sums[around] + _summed(change, place[triangles], len(around))
+        turns = _unit(turned) - normals[around]
         order = np.argsort(rows)
         far = _largest(deltas[order]) > LEAST_MOVE_M
         seen = _largest(turns) > LEAST_TURN
         yield MorphTarget(rows[order][far], deltas[order][far], around[seen], turns[seen])
+
+
+class _Around:
+    """The triangles around vertices."""
+
+    def __init__(self, triangles: NDArray[np.int64], count: int) -> None:
+        corners = triangles.ravel()
+        self._triangles = len(triangles)
+        self._of = np.argsort(corners, kind="stable") // 3
+        self._starts = np.concatenate([[0], np.cumsum(np.bincount(corners, minlength=count))])
+
+    def __call__(self, rows: NDArray[np.int64]) -> Rows:
+        """Return those that have a corner among some vertices, increasing."""
+        first, sizes = self._starts[rows], self._starts[rows + 1] - self._starts[rows]
+        behind = np.cumsum(sizes) - sizes
+        places = np.repeat(first - behind, sizes) + np.arange(int(sizes.sum()))
+        return np.flatnonzero(_marked(self._of[places], self._triangles))
 
 
 def _summed(faces: Floats, triangles: NDArray[np.int64], count: int) -> Floats:
@@ -77,10 +99,11 @@ def _largest(vectors: Floats) -> Floats:
     return np.asarray(np.maximum(np.maximum(x, y), z))
 
 
-def _cross(vertices: Floats, triangles: NDArray[np.int64]) -> Floats:
-    """Return normals of triangles, as long as twice their areas."""
-    a, b, c = (vertices[triangles[:, i]] for i in range(3))
-    return np.cross(b - a, c - a)
+def _crossed(corners: Floats) -> Floats:
+    """Return normals of triangles, as long as twice their areas, of their corners (F, 3, 3)."""
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    (ux, uy, uz), (vx, vy, vz) = u.T, v.T
+    return np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], axis=1)
 
 
 def _unit(vectors: Floats) -> Floats:

@@ -20,9 +20,8 @@ if TYPE_CHECKING:
 
 STARTED = "Python and the command"
 SOLVER_STEPS = (
-    ("numba", "importing numba"),
     ("nlopt", "importing nlopt"),
-    ("azee_solver.kernels", "loading the kernels"),
+    ("azee_solver.program", "loading the kernels"),
     ("azee.motion.animate", "importing solver and motion"),
 )
 """What solving needs, in the order of import: a module, and what loading it is called."""

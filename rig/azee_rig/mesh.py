@@ -10,10 +10,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from azee_rig.machine_code import Kernel
 from azee_rig.skeleton import frozen
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+_SMOOTH_NORMALS = Kernel("azee_rig.skin_kernel", "smooth_normals", "azee_rig.pointers")
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,11 +91,11 @@ class BodyMesh:
 
 def vertex_normals(vertices: Floats, triangles: Ints) -> Floats:
     """Return unit normals (N, 3), each the mean of its triangles' normals by area."""
-    from azee_rig.skin_kernel import smooth_normals
-
     vertices = np.ascontiguousarray(vertices, dtype=np.float64)
     triangles = np.ascontiguousarray(triangles, dtype=np.int64)
-    return np.asarray(smooth_normals(vertices, triangles))
+    normals = np.empty_like(vertices)
+    _SMOOTH_NORMALS(len(vertices), len(triangles), vertices, triangles, normals)
+    return normals
 
 
 def read_mesh(path: Path) -> BodyMesh:

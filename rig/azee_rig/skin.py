@@ -5,11 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from azee_rig.machine_code import Kernel
 from azee_rig.mesh import BodyMesh
 from azee_rig.rotation import to_matrices
 from azee_rig.skeleton import Pose, Skeleton
 
 Floats = NDArray[np.float64]
+
+_BLENDED = Kernel("azee_rig.skin_kernel", "blended", "azee_rig.pointers")
 
 
 def joint_frames(skeleton: Skeleton, pose: Pose) -> tuple[Floats, Floats]:
@@ -37,10 +40,11 @@ def skin(
 
     Args: unit_weights: (U,) weights of the face units, in the mesh's order.
     """
-    from azee_rig.skin_kernel import blended
-
     positions, rotations = joint_frames(skeleton, pose)
     shift = positions - (rotations @ skeleton.rest_positions[:, :, None])[..., 0]
     transforms = np.concatenate([rotations, shift[:, :, None]], axis=2)
     shaped = mesh.vertices if unit_weights is None else mesh.shaped(unit_weights)
-    return np.asarray(blended(shaped, mesh.joints, mesh.weights, transforms))
+    count, influences = mesh.joints.shape
+    out = np.empty_like(shaped)
+    _BLENDED(count, influences, len(transforms), shaped, mesh.joints, mesh.weights, transforms, out)
+    return out

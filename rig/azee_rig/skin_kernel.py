@@ -1,47 +1,61 @@
 """The two loops over all of a body's skin, compiled: blending and normals.
 
-numba compiles them once and caches them on disk. No thread, no fast-math: the same input gives
-the same bits. Import this module where it is needed, not at the top: numba takes its time.
+No thread, no fast-math: the same input gives the same bits. Only `machine_code` imports this.
 """
 
 from __future__ import annotations
 
-from typing import Any
+import math
 
-import numpy as np
-from numba import njit, types
+from numba import cfunc
 
-_floats = types.Array(types.float64, 2, "C", readonly=True)
-_indices = types.Array(types.int64, 2, "C", readonly=True)
-_transforms = types.Array(types.float64, 3, "C", readonly=True)
+from azee_rig.machine_code import KEEPS
+from azee_rig.pointers import WORDS, carray, integers, reals
 
 
-@njit(types.float64[:, ::1](_floats, _indices, _floats, _transforms), cache=True)
-def blended(vertices: Any, joints: Any, weights: Any, transforms: Any) -> Any:
+@cfunc(WORDS, cache=not KEEPS, error_model="numpy")
+def blended(words):  # type: ignore[no-untyped-def]
     """Vertices (N, 3) moved by v' = Σ_k w_k T_k (v, 1), skipping influences without weight.
 
-    Args: joints, weights: (N, K) influences. transforms: (J, 3, 4).
+    Words: N, K, J, vertices (N, 3), joints (N, K), weights (N, K), transforms (J, 3, 4), and the
+    result (N, 3).
     """
-    out = np.zeros_like(vertices)
-    for v in range(vertices.shape[0]):
+    w = carray(words, (8,))
+    count, influences = w[0], w[1]
+    vertices, out = reals(w[3], (count, 3)), reals(w[7], (count, 3))
+    joints, weights = integers(w[4], (count, influences)), reals(w[5], (count, influences))
+    transforms = reals(w[6], (w[2], 3, 4))
+    for v in range(count):
         x, y, z = vertices[v, 0], vertices[v, 1], vertices[v, 2]
-        for k in range(joints.shape[1]):
-            w = weights[v, k]
-            if w != 0.0:
-                T = transforms[joints[v, k]]
+        for r in range(3):
+            out[v, r] = 0.0
+        for k in range(influences):
+            weight = weights[v, k]
+            if weight != 0.0:
+                j = joints[v, k]
                 for r in range(3):
-                    out[v, r] += w * (T[r, 0] * x + T[r, 1] * y + T[r, 2] * z + T[r, 3])
-    return out
+                    out[v, r] += weight * (
+                        transforms[j, r, 0] * x
+                        + transforms[j, r, 1] * y
+                        + transforms[j, r, 2] * z
+                        + transforms[j, r, 3]
+                    )
 
 
-@njit(types.float64[:, ::1](_floats, _indices), cache=True)
-def smooth_normals(vertices: Any, triangles: Any) -> Any:
-    """Return unit normals (N, 3), each the mean of its triangles' by area; 0 where there is none.
+@cfunc(WORDS, cache=not KEEPS, error_model="numpy")
+def smooth_normals(words):  # type: ignore[no-untyped-def]
+    """Work out unit normals (N, 3), each the mean of its triangles' by area; 0 where there is none.
 
-    Args: triangles: (F, 3).
+    Words: N, F, vertices (N, 3), triangles (F, 3), and the result (N, 3).
     """
-    out = np.zeros_like(vertices)
-    for t in range(triangles.shape[0]):
+    w = carray(words, (5,))
+    count = w[0]
+    vertices, triangles = reals(w[2], (count, 3)), integers(w[3], (w[1], 3))
+    out = reals(w[4], (count, 3))
+    for v in range(count):
+        for r in range(3):
+            out[v, r] = 0.0
+    for t in range(w[1]):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
         x, y, z = vertices[a, 0], vertices[a, 1], vertices[a, 2]
         ux, uy, uz = vertices[b, 0] - x, vertices[b, 1] - y, vertices[b, 2] - z
@@ -52,9 +66,8 @@ def smooth_normals(vertices: Any, triangles: Any) -> Any:
             out[v, 0] += nx
             out[v, 1] += ny
             out[v, 2] += nz
-    for v in range(out.shape[0]):
-        length = np.sqrt(out[v, 0] ** 2 + out[v, 1] ** 2 + out[v, 2] ** 2)
+    for v in range(count):
+        length = math.sqrt(out[v, 0] ** 2 + out[v, 1] ** 2 + out[v, 2] ** 2)
         if length > 0.0:
             for r in range(3):
                 out[v, r] /= length
-    return out

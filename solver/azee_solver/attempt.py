@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.chain import Frames
-from azee_solver import kernels
+from azee_solver import block
 from azee_solver.anatomy import Anatomy, Part, anatomy, part_of
 from azee_solver.binding import Binding
 from azee_solver.broadphase import Collisions
@@ -140,8 +140,8 @@ class Body:
         program(np.ascontiguousarray(q), np.empty(0))
         count = len(self.rig.chain.names)
         return Frames(
-            program.section(kernels.POSITIONS).reshape(count, 3).copy(),
-            program.section(kernels.ROTATIONS).reshape(count, 3, 3).copy(),
+            program.section(block.POSITIONS).reshape(count, 3).copy(),
+            program.section(block.ROTATIONS).reshape(count, 3, 3).copy(),
         )
 
 
@@ -379,7 +379,7 @@ class _Attempt:
             q,
             ratios,
             sum(r * r for i, r in ratios.items() if i not in self.ease),
-            float(self.program.section(kernels.DEEPEST)[0]),
+            float(self.program.section(block.DEEPEST)[0]),
             self.residuals.undefined,
             self.ease,
         )
@@ -400,7 +400,7 @@ class _Attempt:
         weight = GAZING_LEVEL_RAD**-2 if gaze else 0.5 * LEVEL_RAD**-2
         return [
             Row(
-                kernels.MEET,
+                block.MEET,
                 tape.node_vector(node, np.eye(3)[k]),
                 tape.constant(level[:, k]),
                 weight,

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver import kernels
+from azee_solver import block
 from azee_solver.options import SolveOptions
 from azee_solver.program import Program
 
@@ -67,10 +67,10 @@ def weighing(
     share, resistance, rows, posture = (
         program.section(section)
         for section in (
-            kernels.MISS_SHARE,
-            kernels.OVERLAP_WEIGHT,
-            kernels.ROW_NUMBERS,
-            kernels.POSTURE,
+            block.MISS_SHARE,
+            block.OVERLAP_WEIGHT,
+            block.ROW_NUMBERS,
+            block.POSTURE,
         )
     )
     changed = [share, resistance]

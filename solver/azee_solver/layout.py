@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.skeleton import frozen
-from azee_solver import kernels as k
+from azee_solver import block as k
 from azee_solver.broadphase import BroadPhase, Collisions, broad_phase
 
 if TYPE_CHECKING:

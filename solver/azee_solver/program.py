@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver import kernels as k
+from azee_rig.machine_code import Kernel
+from azee_solver import block as k
 from azee_solver.broadphase import Collisions
 from azee_solver.layout import Structure, layout
 from azee_solver.nlopt_backend import Compiled, address, minimise
@@ -25,7 +26,13 @@ Ints = NDArray[np.int64]
 
 
 _POINTER = ctypes.c_void_p
-_EVALUATE = int(k.evaluate.address or 0)
+_EVALUATE = Kernel(
+    "azee_solver.kernels.evaluate",
+    "evaluate",
+    "azee_solver.kernels",
+    "azee_solver.block",
+    "azee_rig.pointers",
+).address
 """Where the compiled objective lies."""
 _evaluate = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_uint, _POINTER, _POINTER, _POINTER)(
     _EVALUATE

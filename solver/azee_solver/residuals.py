@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver import kernels
+from azee_solver import block
 from azee_solver.binding import EYES
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Relation, Rotate
 from azee_solver.demand import Demand
@@ -86,24 +86,24 @@ def _rows(tape: Tape, demand: Demand, weight: float) -> list[Row]:
             reach = tape.evaluator.scale * distance
             if isinstance(point, SitePoint):
                 aim = tape.site(point.site, reach)
-                return [Row(kernels.MEET, tape.site(site), aim, weight)]
+                return [Row(block.MEET, tape.site(site), aim, weight)]
             aim = tape.point(point, demand.phase)
-            kind = kernels.AT_DISTANCE if reach else kernels.MEET
+            kind = block.AT_DISTANCE if reach else block.MEET
             return [Row(kind, tape.site(site), aim, weight, reach)]
         case Orient(axis, bone, relation, vector):
             along = relation is Relation.ALONG
-            kind = kernels.MEET if along else kernels.PERPENDICULAR
+            kind = block.MEET if along else block.PERPENDICULAR
             return [Row(kind, tape.axis(bone, axis), tape.unit(tape.vector(vector)), weight)]
         case Look(vector):
             aim = tape.unit(tape.vector(vector))
-            return [Row(kernels.MEET, tape.gaze(eye)[1], aim, weight) for eye in EYES]
+            return [Row(block.MEET, tape.gaze(eye)[1], aim, weight) for eye in EYES]
         case LookAt(point):
             aim = tape.point(point, demand.phase)
             rays = [tape.gaze(eye) for eye in EYES]
-            return [Row(kernels.MEET, ray, tape.towards(eye, aim), weight) for eye, ray in rays]
+            return [Row(block.MEET, ray, tape.towards(eye, aim), weight) for eye, ray in rays]
         case Rotate():
             # The three columns' chords are 2 sin(φ / 2) √2 together.
-            return [Row(kernels.MEET, a, b, 0.5 * weight) for a, b in tape.turned_frame(constraint)]
+            return [Row(block.MEET, a, b, 0.5 * weight) for a, b in tape.turned_frame(constraint)]
         case _:
             raise ValueError(f"no posture meets a {type(constraint).__name__}")
 

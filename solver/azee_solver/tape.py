@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from azee_rig.chain import DIR, NRM, Frames
 from azee_solver import path as paths
+from azee_solver.block import COMBINE, CONSTANT, CROSS, POINT, TURN, UNIT, VECTOR
 from azee_solver.constraint import BoneAxis, Rotate
 from azee_solver.evaluate import GAZE, Evaluator, zero_rotation
 from azee_solver.geometry import (
@@ -55,7 +56,6 @@ from azee_solver.geometry import (
     WorldPoint,
     depends_on,
 )
-from azee_solver.kernels import COMBINE, CONSTANT, CROSS, POINT, TURN, UNIT, VECTOR
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from stick_body import stick_body
 
 from azee_rig.chain import Frames
 from azee_rig.rig import Rig
-from azee_solver import kernels, nlopt_backend
+from azee_solver import block, nlopt_backend
 from azee_solver.broadphase import Collisions
 from azee_solver.collisions import segment_distance
 from azee_solver.constraint import (
@@ -160,7 +160,7 @@ def check_gradient(program: Program, q: NDArray[np.float64]) -> None:
 
 
 @pytest.mark.parametrize("expr", VECTORS, ids=lambda e: type(e).__name__)
-@pytest.mark.parametrize("kind", [kernels.MEET, kernels.PERPENDICULAR])
+@pytest.mark.parametrize("kind", [block.MEET, block.PERPENDICULAR])
 def test_gradient_of_orientations(expr: Vector, kind: int) -> None:
     case = Case(1)
     rows = [
@@ -171,7 +171,7 @@ def test_gradient_of_orientations(expr: Vector, kind: int) -> None:
 
 
 @pytest.mark.parametrize("expr", POINTS, ids=lambda e: type(e).__name__)
-@pytest.mark.parametrize("kind", [kernels.MEET, kernels.AT_DISTANCE])
+@pytest.mark.parametrize("kind", [block.MEET, block.AT_DISTANCE])
 def test_gradient_of_places(expr: Point, kind: int) -> None:
     case = Case(2)
     site = case.tape.site(Site("M_TIP", S), 0.01)
@@ -183,7 +183,7 @@ def test_gradient_of_places(expr: Point, kind: int) -> None:
 def test_gradient_of_a_site_that_rides_on_two_nodes(distance: float) -> None:
     case = Case(8)
     tip, crease = case.tape.site(Site("I_TIP", S)), case.tape.site(Site("ELi", W), distance)
-    check_gradient(case.program([Row(kernels.MEET, tip, crease, 2.0)]), case.q)
+    check_gradient(case.program([Row(block.MEET, tip, crease, 2.0)]), case.q)
 
 
 def test_gradient_of_rotations_and_gaze() -> None:
@@ -194,9 +194,9 @@ def test_gradient_of_rotations_and_gaze() -> None:
         Rotate(HEAD, Dir(PALM_S), -0.6),
         Rotate(Bone("back_1"), UP, 0.2),
     ):
-        rows += [Row(kernels.MEET, a, b, 0.5) for a, b in case.tape.turned_frame(rotate)]
+        rows += [Row(block.MEET, a, b, 0.5) for a, b in case.tape.turned_frame(rotate)]
     centre, gaze = case.tape.gaze(Bone("eye", Side.LEFT))
-    rows.append(Row(kernels.MEET, gaze, case.tape.towards(centre, case.tape.point(TIP_S)), 1.0))
+    rows.append(Row(block.MEET, gaze, case.tape.towards(centre, case.tape.point(TIP_S)), 1.0))
     check_gradient(case.program(rows), case.q)
 
 
@@ -213,10 +213,8 @@ def test_gradient_with_few_coordinates_free() -> None:
     rig = stick_body()
     free = [v for v, name in enumerate(rig.coordinates.names) if name.startswith(("arm_R", "back"))]
     case = Case(4, free)
-    row = Row(kernels.MEET, case.tape.site(Site("I_TIP", S)), case.tape.point(POINTS[0]), 1.0)
-    turn = Row(
-        kernels.MEET, case.tape.unit(case.tape.vector(VECTORS[5])), case.tape.vector(UP), 2.0
-    )
+    row = Row(block.MEET, case.tape.site(Site("I_TIP", S)), case.tape.point(POINTS[0]), 1.0)
+    turn = Row(block.MEET, case.tape.unit(case.tape.vector(VECTORS[5])), case.tape.vector(UP), 2.0)
     pairs = rig.capsules.pairs
     reach = rig.capsules.radius[pairs].sum(axis=1) + 0.1
     check_gradient(case.program([row, turn], Collisions(pairs, reach), overlap=30.0), case.q)
@@ -227,23 +225,23 @@ def test_frames_equal_those_of_the_chain(seed: int) -> None:
     case = Case(seed)
     rig = case.rig
     rows = [
-        Row(kernels.MEET, case.tape.node_point(b, np.zeros(3)), case.tape.constant(np.ones(3)), 1.0)
+        Row(block.MEET, case.tape.node_point(b, np.zeros(3)), case.tape.constant(np.ones(3)), 1.0)
         for b in range(len(rig.chain.names))
     ]
     program = case.program(rows)
     other = np.random.default_rng(99).uniform(rig.coordinates.lower, rig.coordinates.upper)
     program(other, np.empty(0))
     wanted = rig.chain.frames(other)
-    run = slice(program.ints[kernels.POSITIONS], program.ints[kernels.POSITIONS + 1])
+    run = slice(program.ints[block.POSITIONS], program.ints[block.POSITIONS + 1])
     np.testing.assert_allclose(program.reals[run].reshape(-1, 3), wanted.positions, atol=1e-13)
-    run = slice(program.ints[kernels.ROTATIONS], program.ints[kernels.ROTATIONS + 1])
+    run = slice(program.ints[block.ROTATIONS], program.ints[block.ROTATIONS + 1])
     np.testing.assert_allclose(program.reals[run].reshape(-1, 3, 3), wanted.rotations, atol=1e-13)
 
 
 @pytest.mark.parametrize("expr", VECTORS, ids=lambda e: type(e).__name__)
 def test_a_tape_gives_the_evaluator_s_vectors(expr: Vector) -> None:
     case = Case(5)
-    row = Row(kernels.MEET, case.tape.vector(expr), case.tape.constant(np.zeros(3)), 1.0)
+    row = Row(block.MEET, case.tape.vector(expr), case.tape.constant(np.zeros(3)), 1.0)
     value = case.program([row])(case.q, np.empty(0))
     wanted = case.evaluator.vector(expr, case.rig.chain.frames(case.q))
     assert value == pytest.approx(float(wanted @ wanted), rel=1e-12)
@@ -253,7 +251,7 @@ def test_a_tape_gives_the_evaluator_s_vectors(expr: Vector) -> None:
 def test_a_tape_gives_the_evaluator_s_points(expr: Point) -> None:
     case = Case(6)
     place = np.array([0.3, 0.2, 0.1])
-    row = Row(kernels.MEET, case.tape.point(expr, 0.25), case.tape.constant(place), 1.0)
+    row = Row(block.MEET, case.tape.point(expr, 0.25), case.tape.constant(place), 1.0)
     value = case.program([row])(case.q, np.empty(0))
     wanted = case.evaluator.point(expr, case.rig.chain.frames(case.q), 0.25) - place
     assert value == pytest.approx(float(wanted @ wanted), rel=1e-12)
@@ -304,11 +302,11 @@ def everything(seed: int) -> tuple[Case, Program]:
     case = Case(seed)
     tape, capsules = case.tape, case.rig.capsules
     rows = [
-        Row(kernels.MEET, tape.site(Site("I_TIP", S)), tape.point(POINTS[0]), 1e4),
-        Row(kernels.AT_DISTANCE, tape.site(Site("PA", W)), tape.point(POINTS[2]), 1e4, 0.1),
-        Row(kernels.MEET, tape.axis(PALM_S, BoneAxis.NRM), tape.unit(tape.vector(VECTORS[8])), 9e2),
-        Row(kernels.MEET, tape.axis(PALM_W, BoneAxis.DIR), tape.unit(tape.vector(VECTORS[5])), 9e2),
-        Row(kernels.PERPENDICULAR, tape.axis(HEAD, BoneAxis.DIR), tape.vector(VECTORS[7]), 9e2),
+        Row(block.MEET, tape.site(Site("I_TIP", S)), tape.point(POINTS[0]), 1e4),
+        Row(block.AT_DISTANCE, tape.site(Site("PA", W)), tape.point(POINTS[2]), 1e4, 0.1),
+        Row(block.MEET, tape.axis(PALM_S, BoneAxis.NRM), tape.unit(tape.vector(VECTORS[8])), 9e2),
+        Row(block.MEET, tape.axis(PALM_W, BoneAxis.DIR), tape.unit(tape.vector(VECTORS[5])), 9e2),
+        Row(block.PERPENDICULAR, tape.axis(HEAD, BoneAxis.DIR), tape.vector(VECTORS[7]), 9e2),
     ]
     reach = capsules.radius[capsules.pairs].sum(axis=1) + 0.02
     collisions = Collisions(capsules.pairs, reach)
@@ -331,7 +329,7 @@ def test_balls_pass_over_nothing_that_overlaps(signer: Rig) -> None:
         Collisions(pairs, reach),
         Cost(nothing, nothing, nothing, 1.0),
     )
-    balls = program.section(kernels.RUN_REACH)
+    balls = program.section(block.RUN_REACH)
     assert len(balls) < len(pairs) / 5
     near, random, overlapping = balls.copy(), np.random.default_rng(5), 0
     for _ in range(60):

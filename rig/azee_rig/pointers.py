@@ -1,0 +1,47 @@
+"""Arrays at addresses, for kernels that are handed words: nothing is copied, nothing can fail."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+from llvmlite import ir
+from numba import njit
+from numba.extending import intrinsic
+
+carray: Any = getattr(numba, "carray")  # noqa: B009 - its stubs hide the name
+types: Any = numba.types
+WORDS = types.void(types.CPointer(types.int64))
+"""Signature of a kernel that is handed words: numbers, and addresses of arrays."""
+
+
+@intrinsic
+def reals_at(context, address):  # type: ignore[no-untyped-def]
+    """Real numbers at an address."""
+
+    def code(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+        return builder.inttoptr(arguments[0], ir.DoubleType().as_pointer())
+
+    return types.CPointer(types.float64)(types.int64), code
+
+
+@intrinsic
+def integers_at(context, address):  # type: ignore[no-untyped-def]
+    """Integers at an address."""
+
+    def code(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+        return builder.inttoptr(arguments[0], ir.IntType(64).as_pointer())
+
+    return types.CPointer(types.int64)(types.int64), code
+
+
+@njit(error_model="numpy")
+def reals(address, shape):  # type: ignore[no-untyped-def]
+    """Array of reals of some shape."""
+    return carray(reals_at(address), shape)  # type: ignore[call-arg]
+
+
+@njit(error_model="numpy")
+def integers(address, shape):  # type: ignore[no-untyped-def]
+    """Array of integers of some shape."""
+    return carray(integers_at(address), shape)  # type: ignore[call-arg]

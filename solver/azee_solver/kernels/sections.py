@@ -1,0 +1,44 @@
+"""Sections of a block as arrays: nothing is copied, nothing can fail."""
+
+from __future__ import annotations
+
+from numba import njit
+from numba.extending import intrinsic
+
+from azee_rig.pointers import carray, types
+
+
+@njit(
+    [
+        words(words, types.int64[::1], types.int64)
+        for words in (types.int64[::1], types.float64[::1])
+    ],
+    error_model="numpy",
+)
+def part(array, ints, section):  # type: ignore[no-untyped-def]
+    """Return a section as a flat array."""
+    return array[ints[section] : ints[section + 1]]
+
+
+@intrinsic
+def _word(context, array, index):  # type: ignore[no-untyped-def]
+    """Address of a word of a block."""
+
+    def code(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+        found = context.make_array(signature.args[0])(context, builder, arguments[0])
+        return builder.gep(found.data, [arguments[1]])
+
+    return types.CPointer(array.dtype)(array, types.int64), code
+
+
+@njit(error_model="numpy")
+def matrix(array, ints, section, rows, columns):  # type: ignore[no-untyped-def]
+    """Return a section as rows and columns; quicker than to reshape it, which may fail."""
+    return carray(_word(array, ints[section]), (rows, columns))  # type: ignore[call-arg]
+
+
+@njit(error_model="numpy")
+def stack(array, ints, section, count, rows, columns):  # type: ignore[no-untyped-def]
+    """Return a section as so many matrices."""
+    place = ints[section]
+    return carray(_word(array, place), (count, rows, columns))  # type: ignore[call-arg]

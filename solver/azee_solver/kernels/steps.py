@@ -1,0 +1,77 @@
+"""Damped Gauss-Newton steps inside the bounds (Levenberg 1944, Marquardt 1963)."""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+
+@njit(error_model="numpy")
+def _newton_step(free, count, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
+    """Solve (H + damping · diag H) p = −g for some coordinates; `step` holds the others' moves."""
+    n = gradient.shape[0]
+    for r in range(count):
+        i = free[r]
+        rhs = -gradient[i]
+        for j in range(n):
+            if step[j] != 0.0:
+                rhs -= (hessian[i, j] if j >= i else hessian[j, i]) * step[j]
+        factor[r, count] = rhs
+        for c in range(r, count):
+            factor[r, c] = hessian[i, free[c]]
+        factor[r, r] += damping * factor[r, r] + 1e-12
+    for r in range(count):
+        pivot = math.sqrt(max(factor[r, r], 1e-300))
+        for c in range(r, count + 1):
+            factor[r, c] /= pivot
+        for i in range(r + 1, count):
+            share = factor[r, i]
+            if share != 0.0:
+                for c in range(i, count + 1):
+                    factor[i, c] -= share * factor[r, c]
+    for r in range(count - 1, -1, -1):
+        solved = factor[r, count]
+        for c in range(r + 1, count):
+            solved -= factor[r, c] * step[free[c]]
+        step[free[r]] = solved / factor[r, r]
+
+
+@njit(error_model="numpy")
+def bounded_step(x, bounds, free, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
+    """Step towards the model's least value inside the bounds, by an active set; what it gains."""
+    lower, upper = bounds[0], bounds[1]
+    count = 0
+    for k in range(x.shape[0]):
+        step[k] = 0.0
+        stuck = (x[k] <= lower[k] and gradient[k] >= 0.0) or (
+            x[k] >= upper[k] and gradient[k] <= 0.0
+        )
+        if not stuck:
+            free[count] = k
+            count += 1
+    while count > 0:
+        for r in range(count):
+            step[free[r]] = 0.0
+        _newton_step(free, count, damping, gradient, hessian, factor, step)
+        left = 0
+        for r in range(count):
+            k = free[r]
+            if x[k] + step[k] < lower[k]:
+                step[k] = lower[k] - x[k]
+            elif x[k] + step[k] > upper[k]:
+                step[k] = upper[k] - x[k]
+            else:
+                free[left] = k
+                left += 1
+        if left == count:
+            break
+        count = left
+    foreseen = 0.0
+    for i in range(x.shape[0]):
+        if step[i] != 0.0:
+            bent = 0.5 * hessian[i, i] * step[i]
+            for j in range(i + 1, x.shape[0]):
+                bent += hessian[i, j] * step[j]
+            foreseen -= 2.0 * step[i] * (gradient[i] + bent)
+    return foreseen

@@ -192,8 +192,8 @@ def scale(found: Findings, console: Console, repeats: int) -> None:
 def processes(found: Findings, console: Console) -> None:
     """Measure what a process pays: compiling once on a machine, all else each time."""
     code = (
-        "import time, numba, nlopt, numpy; t = time.perf_counter(); "
-        "import azee_solver.kernels; print(time.perf_counter() - t)"
+        "import sys, time, nlopt, numpy; sys.modules['scipy'] = None; t = time.perf_counter(); "
+        "import azee_solver.program; print(time.perf_counter() - t)"
     )
     with tempfile.TemporaryDirectory() as folder:
         environment = os.environ | {

@@ -37,6 +37,18 @@ LIBRARY = frozenset(
     {"abort", "atan2", "cos", "memcpy", "memmove", "memset", "sin", "sincos", "sqrt"}
 )
 """Functions of C that kernels may call."""
+TRAPS = frozenset(
+    {
+        "NRT_Free",
+        "NRT_MemInfo_call_dtor",
+        "numba_do_raise",
+        "numba_gil_ensure",
+        "numba_gil_release",
+        "numba_runtime_build_excinfo_struct",
+        "numba_unpickle",
+    }
+)
+"""Functions of numba's that every compiled function names for where it would raise or free."""
 
 _DECLARED = re.compile(r'^declare (.*?@"?([\w.$]+)"?\(.*)$', re.MULTILINE)
 _EXTERNAL = re.compile(
@@ -188,12 +200,13 @@ def _closed(source: str) -> str:
     """Let LLVM code name nothing of numba's and Python's.
 
     numba names functions for what may go wrong: raising, freeing. In our kernels nothing does, so
-    that they are never called; if one ever were, the process would end.
+    that they are never called; if one ever were, the process would end. Whatever else a function
+    names stays, and is found out.
     """
 
     def defined(found: re.Match[str]) -> str:
         whole, name = found[1], found[2]
-        if name in LIBRARY or name.startswith("llvm."):
+        if name not in TRAPS and not name.startswith(("Py", "_Py")):
             return found[0]
         return f"define internal {whole} {{\n  call void @abort()\n  unreachable\n}}"
 

@@ -15,6 +15,14 @@ WORDS = types.void(types.CPointer(types.int64))
 """Signature of a kernel that is handed words: numbers, and addresses of arrays."""
 
 
+INNER: dict[str, Any] = {
+    "error_model": "numpy",
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+}
+"""Options of functions that only other compiled ones call: wrappers take a sixth of compiling."""
+
+
 @intrinsic
 def reals_at(context, address):  # type: ignore[no-untyped-def]
     """Real numbers at an address."""
@@ -35,13 +43,13 @@ def integers_at(context, address):  # type: ignore[no-untyped-def]
     return types.CPointer(types.int64)(types.int64), code
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def reals(address, shape):  # type: ignore[no-untyped-def]
     """Array of reals of some shape."""
     return carray(reals_at(address), shape)  # type: ignore[call-arg]
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def integers(address, shape):  # type: ignore[no-untyped-def]
     """Array of integers of some shape."""
     return carray(integers_at(address), shape)  # type: ignore[call-arg]

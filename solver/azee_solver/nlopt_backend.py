@@ -1,9 +1,9 @@
-"""NLopt, the only module that imports it: `minimise` for any Python objective, `Compiled` for code.
+"""NLopt, behind two names: the only module that imports it.
 
-The latter hands NLopt's C interface, which its
-wheel exports, the address of compiled code: no Python runs between evaluations, which saves more
-time than most objectives take, and every number is the same. Where a wheel does not export it the
-same code is called through Python.
+`minimise` takes any Python objective. `Compiled` hands NLopt's C interface, which its wheel
+exports, the address of compiled code: no Python runs between evaluations, which saves more time
+than most objectives take, and every number is the same. Where a wheel does not export it the same
+code is called through Python.
 
 NLopt's own verdict says nothing about constraints met, so nothing of it is handed on: callers
 measure. What is guarded here: a start outside the bounds and a NaN both end in an exception
@@ -180,12 +180,12 @@ class Compiled:
         """
         self.function, self.block = function, block
         self.lower, self.upper, self.best = lower, upper, best
-        self._library = c_interface()
         self._optimisers: dict[int, int] = {}
+        self._destroy: Callable[[int], object] = int
 
     def __del__(self) -> None:
         for optimiser in self._optimisers.values():
-            self._library.nlopt_destroy(optimiser)  # type: ignore[union-attr]
+            self._destroy(optimiser)
 
     def _optimiser(self, library: ctypes.CDLL, algorithm: int) -> int:
         """Return NLopt's object for an algorithm."""
@@ -195,6 +195,7 @@ class Compiled:
             if not optimiser:
                 raise MemoryError("NLopt")
             self._optimisers[algorithm] = optimiser
+            self._destroy = library.nlopt_destroy
             library.nlopt_set_lower_bounds(optimiser, address(self.lower))
             library.nlopt_set_upper_bounds(optimiser, address(self.upper))
             library.nlopt_set_min_objective(optimiser, self.function, self.block)
@@ -206,7 +207,7 @@ class Compiled:
 
         The same numbers come of both.
         """
-        library, best = self._library, self.best
+        library, best = c_interface(), self.best
         if library is None:
             return None
         first = start.clip(self.lower, self.upper)

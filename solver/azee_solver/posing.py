@@ -10,12 +10,12 @@ import math
 from numba import cfunc, njit
 
 from azee_rig.machine_code import KEEPS
-from azee_rig.pointers import WORDS, carray, integers, reals
+from azee_rig.pointers import INNER, WORDS, carray, integers, reals
 from azee_solver.block import SHORT
 from azee_solver.kernels.capsules import nearest
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def _turn_all(  # type: ignore[no-untyped-def]
     q, parents, offsets, zero, start, axis, scale, coordinate, positions, rotations, axes
 ):
@@ -47,7 +47,7 @@ def _turn_all(  # type: ignore[no-untyped-def]
                 rotations[node, i, k] = cos * w - sin * u
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def _add_slope(  # type: ignore[no-untyped-def]
     node, point, along, sign, column, parents, start, scale, coordinate, positions, axes, slope
 ):

@@ -35,7 +35,9 @@ def giving_way(
         eased[loser] = PULL / result.ratios[loser]
         result = again(eased, result.q)
     candidates = sorted(eased.keys() - ease.keys(), key=order)
-    for i in candidates[: len(eased) - 1]:
+    for i in candidates:
+        if len(eased) == 1:
+            break
         fewer = {k: v for k, v in eased.items() if k != i}
         other = again(fewer, result.q)
         if not other.lost():

@@ -168,18 +168,24 @@ def test_problems_that_share_coordinates_are_grouped() -> None:
     assert [g.problems for g in groups][-2:] == [(0,), (1, 2)]
 
 
-def test_digits_that_are_turned_against_the_arm_wait_for_their_arm() -> None:
-    """Else one group would need the arm, and the arm the group: it keeps digits clear."""
-    index, little = Bone("index", S, 1), Bone("little", S, 1)
+def test_digits_that_need_an_arm_are_no_group_with_those_that_the_arm_needs() -> None:
+    fixed = frozenset(
+        v
+        for v, name in enumerate(RIG.coordinates.names)
+        if name.startswith(("back", "clav_R", "arm_R", "f_arm_R", "palm_R"))
+    )
     asked = demands(
-        along(DIR, index, Dir(Bone("palm", S))),
-        along(DIR, Bone("palm", S), UP),
-        along(DIR, little, Dir(Bone("f_arm", S))),
+        along(DIR, Bone("index", W, 1), Dir(Bone("palm", W))),
+        Place(Site("I_TIP", W), MSSP),
+        along(DIR, Bone("index", S, 1), Dir(Bone("palm", W))),
     )
     problems = build(asked)
-    groups = [g.problems for g in grouped(problems, [Reach.OWN] * len(problems), BODY)]
-    spoken_of = [[named(problems[p], asked) for p in group] for group in groups]
-    assert spoken_of == [["orient index_R_1 dir"], ["orient palm_R dir", "orient little_R_1 dir"]]
+    groups = grouped(problems, [Reach.OWN] * 3, BODY, fixed)
+    assert [[named(problems[p], asked) for p in group.problems] for group in groups] == [
+        ["orient index_L_1 dir"],
+        ["place I_TIP_L at Mssp"],
+        ["orient index_R_1 dir"],
+    ]
 
 
 def test_with_the_trunk_free_what_depends_on_each_other_is_solved_together() -> None:

@@ -6,6 +6,7 @@ import math
 
 from numba import njit
 
+from azee_rig.pointers import INNER
 from azee_solver.block import (
     BALL_NODE,
     BALLS,
@@ -24,7 +25,7 @@ from azee_solver.block import (
 from azee_solver.kernels.sections import matrix, part
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def nearest(ends, i, j):  # type: ignore[no-untyped-def]
     """Parameters of the nearest points of two capsules' axes (Ericson 2005, §5.1.9)."""
     a, b, c, d, e = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -50,7 +51,7 @@ def nearest(ends, i, j):  # type: ignore[no-untyped-def]
     return s, t
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def _spread(balls, nodes, positions, rotations, centres):  # type: ignore[no-untyped-def]
     """Where points of nodes' frames lie, some reals per row, of which the first three are one."""
     for c in range(nodes.shape[0]):
@@ -64,7 +65,7 @@ def _spread(balls, nodes, positions, rotations, centres):  # type: ignore[no-unt
             )
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def touch(ints, reals, positions, rotations):  # type: ignore[no-untyped-def]
     """Find the pairs of capsules that overlap; return how many, and the sum of overlap².
 
@@ -135,7 +136,7 @@ def touch(ints, reals, positions, rotations):  # type: ignore[no-untyped-def]
     return found, total
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def press(contacts, count, weight, forces, moments):  # type: ignore[no-untyped-def]
     """Push nodes of capsules that overlap apart, with forces and moments."""
     for n in range(count):

@@ -6,6 +6,7 @@ import math
 
 from numba import njit
 
+from azee_rig.pointers import INNER
 from azee_solver.block import (
     ACTIVE,
     AXES,
@@ -22,7 +23,7 @@ from azee_solver.block import (
 from azee_solver.kernels.sections import matrix, part, stack
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def forward(q, ints, reals):  # type: ignore[no-untyped-def]
     """Frames of the active nodes; those of all others stand in the block already."""
     active, parents = part(ints, ints, ACTIVE), part(ints, ints, PARENTS)
@@ -64,7 +65,7 @@ def forward(q, ints, reals):  # type: ignore[no-untyped-def]
                 rotations[node, i, k] = cos * w - sin * u
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def gather(  # type: ignore[no-untyped-def]
     active, parents, start, scale, coordinate, positions, axes, forces, moments, pull_on_q
 ):

@@ -8,7 +8,7 @@ import numpy as np
 from numba import cfunc, njit
 
 from azee_rig.machine_code import KEEPS
-from azee_rig.pointers import carray, types
+from azee_rig.pointers import INNER, carray, types
 from azee_solver.block import (
     BEST,
     BOUNDS,
@@ -27,7 +27,7 @@ from azee_solver.kernels.sections import matrix, part
 from azee_solver.kernels.steps import bounded_step
 
 
-@njit(error_model="numpy", inline="always")
+@njit(**INNER, inline="always")
 def improve(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
     """Polish x (n,) for the block's number of rounds; return f, with its gradient if that is 0."""
     n = x.shape[0]

@@ -6,6 +6,7 @@ import math
 
 from numba import njit
 
+from azee_rig.pointers import INNER
 from azee_solver.block import (
     CODES,
     CONTACTS,
@@ -28,7 +29,7 @@ from azee_solver.kernels.sections import matrix, part, stack
 from azee_solver.kernels.slopes import differentiate, lever
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def _add_square(row, error, weight, hessian, gradient):  # type: ignore[no-untyped-def]
     """Add w e² with slope `row` to the quadratic model; of the matrix only the upper triangle."""
     for i in range(row.shape[0]):
@@ -39,7 +40,7 @@ def _add_square(row, error, weight, hessian, gradient):  # type: ignore[no-untyp
                 hessian[i, j] += c * row[j]
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def gauss_newton(x, contacts, row, gradient, hessian, ints, reals):  # type: ignore[no-untyped-def]
     """Gauss-Newton model of f / 2 about the point that was evaluated last."""
     n, entries = x.shape[0], (ints[CODES + 1] - ints[CODES]) // 4

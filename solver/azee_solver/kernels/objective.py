@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from numba import njit
 
+from azee_rig.pointers import INNER
 from azee_solver.block import (
     ACTIVE,
     AXES,
@@ -39,7 +40,7 @@ from azee_solver.kernels.residuals import compare, play, rewind
 from azee_solver.kernels.sections import matrix, part, stack
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def objective(x, gradient, wanted, ints, reals):  # type: ignore[no-untyped-def]
     """Work out f at the free coordinates x (n,), its gradient too if wanted; count contacts."""
     q = part(reals, ints, Q)
@@ -111,13 +112,13 @@ def objective(x, gradient, wanted, ints, reals):  # type: ignore[no-untyped-def]
     return f, contacts
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def astray(x, k, leader, reference):  # type: ignore[no-untyped-def]
     """How far a coordinate is from its reference, or from what it follows."""
     return x[k] - (FOLLOWING * x[leader] if leader >= 0 else reference)
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def discomfort(u):  # type: ignore[no-untyped-def]
     """How far into the outer part of its range a coordinate is, with its sign."""
     return u - COMFORTABLE if u > COMFORTABLE else min(u + COMFORTABLE, 0.0)

@@ -6,6 +6,7 @@ import math
 
 from numba import njit
 
+from azee_rig.pointers import INNER
 from azee_solver.block import (
     COMBINE,
     CONSTANT,
@@ -20,7 +21,7 @@ from azee_solver.block import (
 )
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def play(codes, numbers, positions, rotations, values):  # type: ignore[no-untyped-def]
     """Values of the tape's entries; see the table in `tape`."""
     for t in range(codes.shape[0]):
@@ -63,7 +64,7 @@ def play(codes, numbers, positions, rotations, values):  # type: ignore[no-untyp
                 )
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def rewind(codes, numbers, values, pulls, forces, moments):  # type: ignore[no-untyped-def]
     """Carry ∂f / ∂entry back to the nodes, as forces and moments about the world's origin."""
     for t in range(codes.shape[0] - 1, -1, -1):
@@ -111,7 +112,7 @@ def rewind(codes, numbers, values, pulls, forces, moments):  # type: ignore[no-u
                 ) * (along * pulls[t, i] + back * values[a, i])
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def compare(rows, row_numbers, share, values, pulls):  # type: ignore[no-untyped-def]
     """Sum of σ w e² over the residuals, and its pulls on the entries they compare."""
     f = 0.0

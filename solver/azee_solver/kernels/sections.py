@@ -5,7 +5,7 @@ from __future__ import annotations
 from numba import njit
 from numba.extending import intrinsic
 
-from azee_rig.pointers import carray, types
+from azee_rig.pointers import INNER, carray, types
 
 
 @njit(
@@ -13,7 +13,7 @@ from azee_rig.pointers import carray, types
         words(words, types.int64[::1], types.int64)
         for words in (types.int64[::1], types.float64[::1])
     ],
-    error_model="numpy",
+    **INNER,
 )
 def part(array, ints, section):  # type: ignore[no-untyped-def]
     """Return a section as a flat array."""
@@ -31,13 +31,13 @@ def _word(context, array, index):  # type: ignore[no-untyped-def]
     return types.CPointer(array.dtype)(array, types.int64), code
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def matrix(array, ints, section, rows, columns):  # type: ignore[no-untyped-def]
     """Return a section as rows and columns; quicker than to reshape it, which may fail."""
     return carray(_word(array, ints[section]), (rows, columns))  # type: ignore[call-arg]
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def stack(array, ints, section, count, rows, columns):  # type: ignore[no-untyped-def]
     """Return a section as so many matrices."""
     place = ints[section]

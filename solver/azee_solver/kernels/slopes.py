@@ -6,6 +6,7 @@ import math
 
 from numba import njit
 
+from azee_rig.pointers import INNER
 from azee_solver.block import (
     AXES,
     COLUMN,
@@ -25,7 +26,7 @@ from azee_solver.block import (
 from azee_solver.kernels.sections import part
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def lever(node, point, direction, factor, row, ints, reals):  # type: ignore[no-untyped-def]
     """Add to a row (n,) what coordinates do to a point of a node, along a direction."""
     parents, start = part(ints, ints, PARENTS), part(ints, ints, DOF_START)
@@ -48,7 +49,7 @@ def lever(node, point, direction, factor, row, ints, reals):  # type: ignore[no-
         node = parents[node]
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def _turned(node, value, is_point, slope, ints, reals):  # type: ignore[no-untyped-def]
     """Slopes (3, n) of a point or direction that a node carries: axis × arm for each coordinate."""
     parents, start = part(ints, ints, PARENTS), part(ints, ints, DOF_START)
@@ -71,13 +72,13 @@ def _turned(node, value, is_point, slope, ints, reals):  # type: ignore[no-untyp
         node = parents[node]
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def _add(slopes, t, i, factor, a, j):  # type: ignore[no-untyped-def]
     for v in range(slopes.shape[2]):
         slopes[t, i, v] += factor * slopes[a, j, v]
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def differentiate(codes, numbers, values, slopes, ints, reals):  # type: ignore[no-untyped-def]
     """Work out derivatives (entries, 3, n) of the tape's entries by the free coordinates."""
     slopes[:] = 0.0

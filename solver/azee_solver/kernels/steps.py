@@ -6,8 +6,10 @@ import math
 
 from numba import njit
 
+from azee_rig.pointers import INNER
 
-@njit(error_model="numpy")
+
+@njit(**INNER)
 def _newton_step(free, count, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
     """Solve (H + damping · diag H) p = −g for some coordinates; `step` holds the others' moves."""
     n = gradient.shape[0]
@@ -37,7 +39,7 @@ def _newton_step(free, count, damping, gradient, hessian, factor, step):  # type
         step[free[r]] = solved / factor[r, r]
 
 
-@njit(error_model="numpy")
+@njit(**INNER)
 def bounded_step(x, bounds, free, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
     """Step towards the model's least value inside the bounds, by an active set; what it gains."""
     lower, upper = bounds[0], bounds[1]

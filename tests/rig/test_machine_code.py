@@ -1,0 +1,169 @@
+"""Kernels kept on disk: made once, loaded without numba, made anew where anything is wrong."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from programs import Python
+
+from azee_rig import machine_code
+from azee_rig.machine_code import Kernel
+
+pytestmark = pytest.mark.skipif(not machine_code.KEEPS, reason="numba keeps its own code here")
+
+SOURCE = '''
+"""A kernel for tests."""
+import math
+
+from numba import cfunc
+
+from azee_rig.pointers import WORDS, carray, reals
+
+
+@cfunc(WORDS, error_model="numpy")
+def waves(words):
+    w = carray(words, (3,))
+    x, out = reals(w[1], (w[0],)), reals(w[2], (w[0],))
+    for i in range(w[0]):
+        out[i] = math.sin(x[i]) * SCALE + math.cos(2.0 * x[i])
+
+
+@cfunc(WORDS, error_model="numpy")
+def shaped(words):
+    w = carray(words, (2,))
+    reals(w[1], (6,)).reshape((2, 3))[1, 2] = w[0]
+'''
+RUN = """
+import json, sys
+import numpy as np
+from azee_rig.machine_code import Kernel
+x = np.linspace(0.0, 3.0, 50)
+out = np.empty(50)
+Kernel("waved", "waves", "azee_rig.pointers")(50, x, out)
+print(json.dumps({"numba": "numba" in sys.modules, "out": out.tolist()}))
+"""
+
+
+def expected(scale: float) -> list[float]:
+    x = np.linspace(0.0, 3.0, 50)
+    return (np.sin(x) * scale + np.cos(2 * x)).tolist()
+
+
+def write(folder: Path, scale: float) -> None:
+    text = SOURCE.replace("SCALE", str(scale))
+    (folder / "waved.py").write_text(text, encoding="utf-8")
+
+
+def run(python: Python, folder: Path) -> dict[str, object]:
+    # The folder goes first on the path, for `waved`; its cache is beside it.
+    code = f"import sys; sys.path.insert(0, {str(folder)!r})\n{RUN}"
+    done = python("-c", code, expect=0)
+    found: dict[str, object] = json.loads(done.stdout)
+    return found
+
+
+def kept(folder: Path) -> list[Path]:
+    return sorted((folder / "__pycache__").glob("waved.waves-*.o"))
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "home"))
+    folder = tmp_path / "code"
+    folder.mkdir()
+    write(folder, 3.0)
+    return folder
+
+
+@pytest.mark.slow
+def test_it_is_made_once_and_loaded_without_numba(python: Python, place: Path) -> None:
+    first = run(python, place)
+    assert first["numba"] is True
+    assert len(kept(place)) == 1
+    again = run(python, place)
+    assert again["numba"] is False
+    assert again["out"] == first["out"]
+    np.testing.assert_allclose(again["out"], expected(3.0), atol=1e-15)  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_another_source_is_another_kernel_and_the_old_one_goes(python: Python, place: Path) -> None:
+    run(python, place)
+    (before,) = kept(place)
+    write(place, 4.0)
+    found = run(python, place)
+    assert found["numba"] is True
+    np.testing.assert_allclose(found["out"], expected(4.0), atol=1e-15)  # type: ignore[arg-type]
+    (after,) = kept(place)
+    assert after != before
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("damage", [b"", b"x" * 4000, None])
+def test_a_damaged_file_is_made_anew(python: Python, place: Path, damage: bytes | None) -> None:
+    run(python, place)
+    (file,) = kept(place)
+    good = file.read_bytes()
+    file.write_bytes(good[:-100] if damage is None else damage)
+    found = run(python, place)
+    assert found["numba"] is True
+    np.testing.assert_allclose(found["out"], expected(3.0), atol=1e-15)  # type: ignore[arg-type]
+    assert file.read_bytes() == good
+
+
+@pytest.mark.slow
+def test_where_nothing_can_be_written_it_works_all_the_same(
+    python: Python, place: Path, tmp_path: Path
+) -> None:
+    (place / "__pycache__").write_text("a file where a folder is wanted", encoding="utf-8")
+    run(python, place)
+    assert list((tmp_path / "home" / "azee").glob("waved.waves-*.o"))
+    assert run(python, place)["numba"] is False
+    shutil.rmtree(tmp_path / "home")
+    (tmp_path / "home").write_text("another", encoding="utf-8")
+    found = run(python, place)
+    assert found["numba"] is True
+    np.testing.assert_allclose(found["out"], expected(3.0), atol=1e-15)  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_what_calls_more_than_c_is_left_to_numba(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(place))
+    kernel, out = Kernel("waved", "shaped", "azee_rig.pointers"), np.zeros(6)
+    with pytest.raises(machine_code.Unkept, match="reshape"):
+        kernel._kept()
+    kernel(7, out)
+    assert out[5] == 7
+    assert not list((place / "__pycache__").glob("waved.shaped-*.o"))
+    del sys.modules["waved"]
+
+
+def test_arrays_must_lie_row_by_row() -> None:
+    kernel = Kernel("azee_rig.skin_kernel", "blended")
+    for wrong in (np.zeros((3, 3)).T[:, :2], np.zeros(3, dtype=np.float32)):
+        with pytest.raises(ValueError, match="row by row"):
+            kernel(1, wrong)
+
+
+def test_all_our_kernels_are_kept(python: Python) -> None:
+    """Else each process would import numba: they name nothing that machine code cannot have."""
+    script = """
+import sys
+import azee_solver.program, azee_solver.kinematics, azee_solver.winding, azee_rig.skin
+from azee_rig.machine_code import Kernel
+modules = [m for n, m in sys.modules.items() if n.startswith("azee_")]
+kernels = {id(k): k for m in modules for k in vars(m).values() if isinstance(k, Kernel)}
+for kernel in kernels.values():
+    kernel.address
+print(len(kernels), "numba" in sys.modules)
+"""
+    python("-c", script, expect=0)
+    assert python("-c", script, expect=0).stdout.split() == ["5", "False"]

@@ -1,0 +1,99 @@
+"""Descents: what their first, soft part is good for, and that weights come back."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from stick_body import stick_body
+from tree_sign import DIR, S, along, demands
+
+from azee_solver import block
+from azee_solver.attempt import Body, _Attempt
+from azee_solver.constraint import Constraint, Place
+from azee_solver.descent import descended, pressed, weighing
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import Bone, Side, Site, Vec, WorldPoint
+from azee_solver.options import SolveOptions
+
+RIG = stick_body()
+IDLE = np.array(RIG.coordinates.idle)
+ARM = frozenset(
+    v
+    for v, name in enumerate(RIG.coordinates.names)
+    if name.startswith(("back", "clav_R", "arm_R", "f_arm_R", "palm_R"))
+)
+OPTIONS = SolveOptions()
+
+
+def attempt(seed: int) -> _Attempt:
+    """A fingertip and a palm's direction, as a random posture has them."""
+    rng = np.random.default_rng(seed)
+    limits = RIG.coordinates
+    q = IDLE.copy()
+    free = sorted(ARM)
+    q[free] = (limits.lower + rng.uniform(0.2, 0.8, len(q)) * (limits.upper - limits.lower))[free]
+    evaluator, frames = Evaluator(RIG, Side.RIGHT), RIG.chain.frames(q)
+    x, y, z = evaluator.site(Site("I_TIP", S), frames).tolist()
+    u, v, w = frames.rotations[RIG.bones["palm_R"].node][:, 1].tolist()
+    asked: list[Constraint] = [
+        Place(Site("I_TIP", S), WorldPoint(x, y, z)),
+        along(DIR, Bone("palm", S), Vec(u, v, w)),
+    ]
+    body = Body(RIG, evaluator, IDLE, {}, OPTIONS, asked)
+    return _Attempt(body, dict(enumerate(demands(*asked))), IDLE, ARM, frozenset(), {})
+
+
+def test_soft_descents_end_lower_after_fewer_evaluations() -> None:
+    soft, hard, work = [], [], []
+    for seed in range(20):
+        program = attempt(seed).program
+        start = IDLE[program.free]
+        ends = []
+        for descend in (descended, pressed):
+            before = program.evaluations
+            ends.append(program(descend(program, start, OPTIONS), np.empty(0)))
+            work.append(program.evaluations - before)
+        soft.append(ends[0])
+        hard.append(ends[1])
+    ratios = np.array(soft) / np.array(hard)
+    assert np.median(ratios) <= 1.0
+    assert np.mean(ratios < 1.01) > 0.85
+    assert sum(work[0::2]) < 0.7 * sum(work[1::2])
+
+
+def test_going_on_takes_up_where_a_polish_ended() -> None:
+    program = attempt(3).program
+    x = descended(program, IDLE[program.free], OPTIONS)
+    before = program.evaluations
+    on = program.polish(x, rounds=50, tolerance=1e-9, going_on=True)
+    bold, before = program.evaluations - before, program.evaluations
+    anew = program.polish(x, rounds=50, tolerance=1e-9)
+    assert bold < program.evaluations - before
+    assert program(on, np.empty(0)) == pytest.approx(program(anew, np.empty(0)), rel=1e-6)
+
+
+def test_weights_come_back_also_after_an_error() -> None:
+    program = attempt(1).program
+    x, rows = IDLE[program.free], len(program.rows)
+    before = program(x, np.empty(0))
+    kept = program.ints.copy()
+    soft = weighing(
+        program,
+        misses=0.5,
+        overlap=0.0,
+        each=np.full(rows, 0.5),
+        ease=np.full(len(program.free), 0.25),
+    )
+    lighter = []
+
+    def fail() -> None:
+        with soft:
+            lighter.append(program(x, np.empty(0)))
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        fail()
+    assert lighter[0] < before
+    assert program(x, np.empty(0)) == before
+    given = slice(program.ints[block.NUMBERS], program.ints[block.POSITIONS])
+    np.testing.assert_array_equal(program.ints[given], kept[given])

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
 import shutil
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -51,7 +53,7 @@ print(json.dumps({"numba": "numba" in sys.modules, "out": out.tolist()}))
 
 def expected(scale: float) -> list[float]:
     x = np.linspace(0.0, 3.0, 50)
-    return (np.sin(x) * scale + np.cos(2 * x)).tolist()
+    return [math.sin(v) * scale + math.cos(2 * v) for v in x.tolist()]
 
 
 def write(folder: Path, scale: float) -> None:
@@ -59,12 +61,19 @@ def write(folder: Path, scale: float) -> None:
     (folder / "waved.py").write_text(text, encoding="utf-8")
 
 
-def run(python: Python, folder: Path) -> dict[str, object]:
+@dataclass(frozen=True)
+class Run:
+    """What a process found."""
+
+    numba: bool
+    out: list[float]
+
+
+def run(python: Python, folder: Path) -> Run:
     # The folder goes first on the path, for `waved`; its cache is beside it.
     code = f"import sys; sys.path.insert(0, {str(folder)!r})\n{RUN}"
     done = python("-c", code, expect=0)
-    found: dict[str, object] = json.loads(done.stdout)
-    return found
+    return Run(**json.loads(done.stdout))
 
 
 def kept(folder: Path) -> list[Path]:
@@ -84,12 +93,12 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.mark.slow
 def test_it_is_made_once_and_loaded_without_numba(python: Python, place: Path) -> None:
     first = run(python, place)
-    assert first["numba"] is True
+    assert first.numba
     assert len(kept(place)) == 1
     again = run(python, place)
-    assert again["numba"] is False
-    assert again["out"] == first["out"]
-    np.testing.assert_allclose(again["out"], expected(3.0), atol=1e-15)  # type: ignore[arg-type]
+    assert not again.numba
+    assert again.out == first.out
+    np.testing.assert_allclose(again.out, expected(3.0), atol=1e-15)
 
 
 @pytest.mark.slow
@@ -98,8 +107,8 @@ def test_another_source_is_another_kernel_and_the_old_one_goes(python: Python, p
     (before,) = kept(place)
     write(place, 4.0)
     found = run(python, place)
-    assert found["numba"] is True
-    np.testing.assert_allclose(found["out"], expected(4.0), atol=1e-15)  # type: ignore[arg-type]
+    assert found.numba
+    np.testing.assert_allclose(found.out, expected(4.0), atol=1e-15)
     (after,) = kept(place)
     assert after != before
 
@@ -112,8 +121,8 @@ def test_a_damaged_file_is_made_anew(python: Python, place: Path, damage: bytes 
     good = file.read_bytes()
     file.write_bytes(good[:-100] if damage is None else damage)
     found = run(python, place)
-    assert found["numba"] is True
-    np.testing.assert_allclose(found["out"], expected(3.0), atol=1e-15)  # type: ignore[arg-type]
+    assert found.numba
+    np.testing.assert_allclose(found.out, expected(3.0), atol=1e-15)
     assert file.read_bytes() == good
 
 
@@ -124,12 +133,12 @@ def test_where_nothing_can_be_written_it_works_all_the_same(
     (place / "__pycache__").write_text("a file where a folder is wanted", encoding="utf-8")
     run(python, place)
     assert list((tmp_path / "home" / "azee").glob("waved.waves-*.o"))
-    assert run(python, place)["numba"] is False
+    assert not run(python, place).numba
     shutil.rmtree(tmp_path / "home")
     (tmp_path / "home").write_text("another", encoding="utf-8")
     found = run(python, place)
-    assert found["numba"] is True
-    np.testing.assert_allclose(found["out"], expected(3.0), atol=1e-15)  # type: ignore[arg-type]
+    assert found.numba
+    np.testing.assert_allclose(found.out, expected(3.0), atol=1e-15)
 
 
 @pytest.mark.slow

@@ -168,21 +168,21 @@ def test_problems_that_share_coordinates_are_grouped() -> None:
     assert [g.problems for g in groups][-2:] == [(0,), (1, 2)]
 
 
-def test_digits_that_need_an_arm_are_no_group_with_those_that_the_arm_needs() -> None:
+def test_digits_that_wait_for_an_arm_are_no_group_with_those_that_go_before_it() -> None:
     fixed = frozenset(
         v
         for v, name in enumerate(RIG.coordinates.names)
         if name.startswith(("back", "clav_R", "arm_R", "f_arm_R", "palm_R"))
     )
     asked = demands(
-        along(DIR, Bone("index", W, 1), Dir(Bone("palm", W))),
+        along(DIR, Bone("little", W, 1), Dir(Bone("palm", W))),
         Place(Site("I_TIP", W), MSSP),
         along(DIR, Bone("index", S, 1), Dir(Bone("palm", W))),
     )
     problems = build(asked)
     groups = grouped(problems, [Reach.OWN] * 3, BODY, fixed)
     assert [[named(problems[p], asked) for p in group.problems] for group in groups] == [
-        ["orient index_L_1 dir"],
+        ["orient little_L_1 dir"],
         ["place I_TIP_L at Mssp"],
         ["orient index_R_1 dir"],
     ]

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
+from azee_solver.anatomy import Part, anatomy
 from azee_solver.constraint import BoneAxis, Constraint, Orient, Place, Relation
 from azee_solver.demand import Demand
 from azee_solver.geometry import Bone, Side, Site, Vec, WorldPoint
@@ -48,8 +49,9 @@ FORWARD = Vec(0.0, 0.0, 1.0)
 class Jump:
     """A step with a greater change than is allowed.
 
-    reach: distance of the target from the shoulder over that of the stretched arm. moved: parts
-    that the solver took into use before and after.
+    reach: distance of the target from the shoulder over that of the stretched arm. missed: what
+    was out of tolerance before or after. at_limits: how many coordinates of trunk and arm are at
+    their limits. moved: parts that the solver took into use before and after.
     """
 
     kind: str
@@ -58,7 +60,8 @@ class Jump:
     reach: float
     coordinate: str
     change_deg: float
-    met: tuple[bool, bool]
+    missed: tuple[str, ...]
+    at_limits: int
     moved: tuple[tuple[str, ...], tuple[str, ...]]
 
 
@@ -156,7 +159,8 @@ def measure(rig: Rig, kind: str, sweeps: int) -> tuple[Row, list[Jump]]:
                             round(reach, 3),
                             rig.coordinates.names[v],
                             round(float(change[v]), 2),
-                            (last.met, report.met),
+                            missed(last, report),
+                            at_limits(rig, report),
                             (last.problems[0].moved, report.problems[0].moved),
                         )
                     )
@@ -173,6 +177,32 @@ def measure(rig: Rig, kind: str, sweeps: int) -> tuple[Row, list[Jump]]:
         len(jumps),
     )
     return row, jumps
+
+
+def missed(*reports: SolveReport) -> tuple[str, ...]:
+    """What any of some reports has out of tolerance."""
+    kinds = [c.kind for report in reports for c in report.constraints if not c.met]
+    return tuple(dict.fromkeys(kinds))
+
+
+def at_limits(rig: Rig, report: SolveReport) -> int:
+    """How many coordinates that constraints may move are at their limits, but the fingers'."""
+    limits, q = rig.coordinates, report.coordinates
+    at = np.minimum(q - limits.lower, limits.upper - q) < 1e-9
+    hand = anatomy(rig.chain, limits).of(Part.HAND)
+    return int(sum(at[v] for v in report.reached - hand))
+
+
+def explained(jump: Jump) -> str:
+    """Why a posture changes so much, as far as it can be told from outside."""
+    before, after = jump.moved
+    taken = [part for part in after if part not in before]
+    left = [part for part in before if part not in after]
+    why = [f"missed: {' and '.join(jump.missed)}"] if jump.missed else []
+    why += [f"takes {' and '.join(taken)}"] if taken else []
+    why += [f"leaves {' and '.join(left)}"] if left else []
+    why += [f"{jump.at_limits} coordinates at their limits"] if jump.at_limits else []
+    return "; ".join(why)
 
 
 def main(given: Sequence[str] | None = None) -> int:
@@ -193,18 +223,9 @@ def main(given: Sequence[str] | None = None) -> int:
         )
     jumps = [jump for _, some in found for jump in some]
     for j in jumps:
-        taken = [part for part in j.moved[1] if part not in j.moved[0]]
-        left = [part for part in j.moved[0] if part not in j.moved[1]]
-        why = (
-            f"takes {' and '.join(taken)}"
-            if taken
-            else f"leaves {' and '.join(left)}"
-            if left
-            else ""
-        )
         print(
             f"  {j.kind}, sweep {j.sweep}, step {j.step}, at {j.reach:.3f} of reach: "
-            f"{j.coordinate} by {j.change_deg}° {j.met} {why}"
+            f"{j.coordinate} by {j.change_deg}°; {explained(j)}"
         )
     if arguments.output:
         content = {"rows": [asdict(r) for r, _ in found], "jumps": [asdict(j) for j in jumps]}

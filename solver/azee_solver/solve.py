@@ -39,6 +39,8 @@ Array = NDArray[np.float64]
 
 CLEARLY = 0.7
 """Moving more of the body is worth it for misses below this part of the others."""
+LEAP_RAD = math.radians(1.5)
+"""Along a movement, where a coordinate changes by more than this, more of the body may share it."""
 AGREED = 2
 """So many other descents must end where the best one does to tell that nothing meets all."""
 BEGUN_RAD = math.radians(1.0)
@@ -136,7 +138,10 @@ class _Moment:
         reach, state = tried[-1]
         self._give_up(state)
         tried[-1] = reach, self._in_order(reach, state, thorough=True)
-        if not tried[-1][1].missed():
+        met = [state for _, state in tried if not state.missed()]
+        if met and self.options.inertia:
+            return min(met, key=lambda state: self._leap(state.q))
+        if met:
             return tried[-1][1]
         widest = self._in_order(*tried[-1], settle=True)
         fewest = len(self._misses(widest))
@@ -148,14 +153,24 @@ class _Moment:
                 best = state
         return best
 
+    def _leap(self, q: Array) -> float:
+        """How far a posture is from the one before, in the coordinate that is farthest."""
+        return float(np.abs(q - self.start).max())
+
     def _begun(self, problem: Problem) -> Reach:
         """Return what a problem may move first: along a movement, what the last step has moved."""
         if not self.options.inertia:
             return Reach.OWN
+        anatomy_ = self.body.anatomy
+        steps = [
+            # Where the trunk may move the head moves too, to stay level.
+            step | (anatomy_.of(Part.HEAD) if step & anatomy_.of(Part.TRUNK) else frozenset())
+            for step in problem.steps
+        ]
         away = np.abs(self.start - self.body.reference) > BEGUN_RAD / (1.0 + self.options.inertia)
-        moved = frozenset(np.flatnonzero(away).tolist()) & problem.steps[Reach.ALL]
+        moved = frozenset(np.flatnonzero(away).tolist()) & steps[Reach.ALL]
         moved -= self.options.fixed | frozenset(self.body.presets)
-        return next(r for r in Reach if moved <= problem.steps[r] or r is Reach.ALL)
+        return next(r for r in Reach if moved <= steps[r] or r is Reach.ALL)
 
     def _in_order(
         self,
@@ -319,7 +334,8 @@ class _Moment:
         for group, result in zip(state.groups, state.results, strict=True):
             missed = result.lost()
             in_the_way = result.overlap_m > self.options.overlap_m
-            if not missed and not in_the_way:
+            leaps = self.options.inertia > 0.0 and self._leap(result.q) > LEAP_RAD
+            if not missed and not in_the_way and not leaps:
                 continue
             touched = frozenset().union(
                 *(self.footprints[i].affected(self.body.anatomy) for i in missed)
@@ -329,7 +345,8 @@ class _Moment:
                 for r in Reach:
                     gain = steps[r] - group.free - self.options.fixed
                     linked = r is Reach.TRUNK > reach[p] and self._is_linked(p, group)
-                    if r > reach[p] and (gain & touched or linked or (gain and in_the_way)):
+                    helps = gain & touched or (gain and (in_the_way or leaps))
+                    if r > reach[p] and (helps or linked):
                         wider[p] = r
                         break
         return None if wider == list(reach) else wider

@@ -114,6 +114,16 @@ def test_a_trunk_that_an_arm_could_do_without_comes_back_over_many_steps(signer:
     assert 0.0 < away[-1] < away[0]
 
 
+@pytest.mark.slow
+def test_where_the_arm_alone_would_leap_more_of_the_body_shares_the_way(signer: Rig) -> None:
+    """Its wrist would turn by 16° within a millimetre, for the elbow is nearly straight there."""
+    way = continuity.swept(signer, "palm, facing", 11)
+    found = [report for _, report in itertools.islice(way, 225, 248)]
+    assert all(report.met for report in found)
+    postures = np.degrees([report.coordinates for report in found])
+    assert np.max(np.abs(np.diff(postures, axis=0))) <= 4.0
+
+
 def test_the_tree_is_eleven_ordered_problems_for_others(signer: Rig) -> None:
     rig = bare_armature(signer)
     (tree,) = Maker(rig).problems("tree", 1)

@@ -159,6 +159,8 @@ def _llvm() -> Any:
     try:
         import llvmlite.binding as llvm
 
+        with suppress(RuntimeError):  # newer versions do it by themselves, and refuse
+            llvm.initialize()
         llvm.initialize_native_target()
         llvm.initialize_native_asmprinter()
     except (ImportError, OSError, RuntimeError) as error:

@@ -220,7 +220,7 @@ def _closed(source: str) -> str:
 def _undefined(code: bytes) -> frozenset[str]:
     """Names that an object file (ELF, 64 bits) leaves to be found. Raises: Unkept."""
     try:
-        if code[:5] != b"\x7fELF\x02":
+        if code[:6] != b"\x7fELF\x02\x01":
             raise Unkept("no ELF")
         (table,) = struct.unpack_from("<Q", code, 0x28)
         size, count = struct.unpack_from("<HH", code, 0x3A)

@@ -4,34 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from dataclasses import replace
 from itertools import chain
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_rig.chain import Frames
 from azee_solver import block
-from azee_solver.anatomy import Anatomy, Part, anatomy, part_of
+from azee_solver.anatomy import Part, part_of
 from azee_solver.binding import Binding
+from azee_solver.body import Body
 from azee_solver.broadphase import Collisions
-from azee_solver.collisions import Obstacles
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
 from azee_solver.demand import Demand
 from azee_solver.descent import descended, pressed, refined, weighing
-from azee_solver.evaluate import Evaluator
-from azee_solver.geometry import Side
-from azee_solver.options import SolveOptions
-from azee_solver.program import Cost, Program, Row
+from azee_solver.program import Program, Row
 from azee_solver.residuals import Residuals, lower
 from azee_solver.result import Result, excess, gains, is_again, merit
 from azee_solver.starts import starts, straight, typical
 from azee_solver.tape import Tape
-
-if TYPE_CHECKING:
-    from azee_rig.rig import Rig
 
 Array = NDArray[np.float64]
 
@@ -39,10 +30,6 @@ LEVEL_RAD = math.radians(2.0)
 """How far a head that nothing turns may tilt with the trunk before it costs as much as a miss."""
 GAZING_LEVEL_RAD = math.radians(5.0)
 """The same for its tilt while the eyes are led."""
-EYE_STIFFNESS, NECK_STIFFNESS = 0.1, 3.0
-"""Of eyes and neck while the eyes are led; the head has 1. They turn first, it last."""
-EYE_COMFORT = 300.0
-"""Keeps led eyes in the middle of their range, so that the head takes the rest."""
 
 BLOCKED = 3
 """A descent that ends in the body counts so many times against looking on, where a wider problem
@@ -52,8 +39,6 @@ AGAIN = 4
 more descents end there, the less likely is it that there is anything better."""
 RETURNS = 9
 """So many descents that come back to the same end, with the body and through it, end the search."""
-FOLLOWING_STIFFNESS = 4.0
-"""Of last finger joints, in following those before them."""
 DEEP = 2.0
 """Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
 FIRM = 4.0
@@ -72,95 +57,6 @@ ROUGH = 1e-6
 """Relative gain that ends descents whose ends are only compared."""
 NEARER = 0.1
 """By so many tolerances another posture must be nearer to what is out of reach to be preferred."""
-
-
-@dataclass(slots=True)
-class Body:
-    """What solving one moment needs of the rig; counts evaluations."""
-
-    rig: Rig
-    evaluator: Evaluator
-    reference: Array
-    presets: Mapping[int, float]
-    options: SolveOptions
-    constraints: Sequence[Constraint]
-    evaluations: int = 0
-    anatomy: Anatomy = field(init=False)
-    obstacles: Obstacles = field(init=False)
-    _weights: dict[bool, tuple[Array, Array, float, Mapping[int, int]]] = field(
-        init=False, default_factory=dict
-    )
-
-    def __post_init__(self) -> None:
-        self.anatomy = anatomy(self.rig.chain, self.rig.coordinates)
-        self.obstacles = Obstacles(self.evaluator.binding, self.anatomy, self.constraints)
-
-    def ghost(self, reference: Array) -> Body:
-        """Return a body that nothing is in the way of, nor presets, and that is always at ease."""
-        options = replace(
-            self.options,
-            posture=1e-3,
-            comfort=0.0,
-            overlap=0.0,
-            overlap_m=math.inf,
-            further_starts=2,
-        )
-        return replace(self, reference=reference, presets={}, options=options, evaluations=0)
-
-    def cost(self, *, gazes: bool) -> Cost:
-        """Posture and comfort weights: presets hold like constraints, led eyes turn first."""
-        if gazes not in self._weights:
-            self._weights[gazes] = self._weighed(gazes=gazes)
-        reference = np.array(self.reference)
-        reference[list(self.presets)] = list(self.presets.values())
-        return Cost(reference, *self._weights[gazes])
-
-    def _weighed(self, *, gazes: bool) -> tuple[Array, Array, float, Mapping[int, int]]:
-        options, anatomy_ = self.options, self.anatomy
-        stiffness = np.array(self.rig.coordinates.stiffness)
-        comfort = np.full(len(stiffness), options.comfort)
-        if gazes:
-            for v in anatomy_.of(Part.EYES):
-                stiffness[v], comfort[v] = EYE_STIFFNESS, EYE_COMFORT
-            for v in anatomy_.of(Part.HEAD):
-                if anatomy_.names[v].startswith("neck"):
-                    stiffness[v] = NECK_STIFFNESS
-        follows = {} if options.posture == 0 or options.inertia else anatomy_.followers
-        keep = options.posture * stiffness**2
-        keep[list(follows)] *= FOLLOWING_STIFFNESS
-        preset = list(self.presets)
-        keep[preset], comfort[preset] = options.tolerance.angle_rad**-2, 0.0
-        loose = {v: leader for v, leader in follows.items() if v not in self.presets}
-        comfort[list(loose)] = 0.0
-        return keep, comfort, options.overlap, loose
-
-    def frames(self, q: Array) -> Frames:
-        """Frames of one posture, by the kernels: a hundred times faster than `Chain.frames`."""
-        program = _forward(self.rig)
-        program(np.ascontiguousarray(q), np.empty(0))
-        count = len(self.rig.chain.names)
-        return Frames(
-            program.section(block.POSITIONS).reshape(count, 3).copy(),
-            program.section(block.ROTATIONS).reshape(count, 3, 3).copy(),
-        )
-
-
-@lru_cache(maxsize=4)
-def _forward(rig: Rig) -> Program:
-    """Return a program that asks for nothing but the frames of all nodes."""
-    moving = np.ones(len(rig.chain.names), dtype=np.bool_)
-    blank = Frames(np.zeros((len(moving), 3)), np.zeros((len(moving), 3, 3)))
-    nothing = np.zeros(len(rig.coordinates))
-    return Program(
-        rig,
-        nothing,
-        range(len(nothing)),
-        Tape(Evaluator(rig, Side.RIGHT), blank, moving),
-        [],
-        Collisions.none(),
-        Cost(nothing, nothing, nothing, 0.0),
-        all_frames=True,
-    )
 
 
 def solve_group(

@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver import describe
-from azee_solver.attempt import Body, solve_group
+from azee_solver.attempt import solve_group
+from azee_solver.body import Body
 from azee_solver.constraint import Morph, Place
 from azee_solver.demand import Demand
 from azee_solver.footprint import Footprint

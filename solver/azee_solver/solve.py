@@ -11,26 +11,27 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver import kinematics
 from azee_solver.anatomy import Part
-from azee_solver.attempt import POLISH, Body, solve_group
-from azee_solver.constraint import Morph, Place, Transpath, Trill
+from azee_solver.attempt import POLISH, solve_group
+from azee_solver.body import Body
+from azee_solver.constraint import Place
 from azee_solver.demand import Demand
 from azee_solver.evaluate import evaluator
 from azee_solver.geometry import Side
 from azee_solver.groups import Group, grouped
 from azee_solver.options import SolveOptions
 from azee_solver.problems import Problem, ProblemBuilder, Reach
-from azee_solver.reasons import Diagnosis
-from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
+from azee_solver.report import SolveReport
 from azee_solver.result import Result, excess
 from azee_solver.settling import giving_way
+from azee_solver.state import State
+from azee_solver.verdict import verdict
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -67,19 +68,9 @@ def solve(
     began = time.perf_counter()
     moment = _Moment(rig, demands, dominant, start, reference, options or SolveOptions())
     state = moment.solve()
-    return moment.report(state, began)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _State:
-    """A posture for the whole moment, and how it came about."""
-
-    q: Array
-    groups: tuple[Group, ...]
-    results: tuple[Result, ...]
-
-    def missed(self) -> frozenset[int]:
-        return frozenset().union(*(r.missed() for r in self.results))
+    return verdict(
+        moment.body, demands, moment.problems, moment.footprints, state, moment.spent_s, began
+    )
 
 
 class _Moment:
@@ -123,7 +114,7 @@ class _Moment:
 
     # Solving ----------------------------------------------------------------------------------
 
-    def solve(self) -> _State:
+    def solve(self) -> State:
         """Solve with as little of the body as will do.
 
         Where nothing meets all, postures that move less of the body stand against those that move
@@ -136,8 +127,9 @@ class _Moment:
             self._give_up(tried[-1][1])
             tried.append((wider, self._in_order(wider, tried[-1][1])))
         reach, state = tried[-1]
-        self._give_up(state)
-        tried[-1] = reach, self._in_order(reach, state, thorough=True)
+        if not all(self._is_well(result) for result in state.results):
+            self._give_up(state)
+            tried[-1] = reach, self._in_order(reach, state, thorough=True)
         met = [state for _, state in tried if not state.missed()]
         if met and self.options.inertia:
             return min(met, key=lambda state: self._leap(state.q))
@@ -175,11 +167,11 @@ class _Moment:
     def _in_order(
         self,
         reach: Sequence[Reach],
-        before: _State | None,
+        before: State | None,
         *,
         thorough: bool = False,
         settle: bool = False,
-    ) -> _State:
+    ) -> State:
         """Solve all groups, each with what the earlier ones reached.
 
         Args: before: a state whose results stand where nothing they depend on has changed.
@@ -205,9 +197,9 @@ class _Moment:
             results.append(result)
             spent_s = self.spent_s.get(group.problems, 0.0) + time.perf_counter() - began
             self.spent_s[group.problems] = spent_s
-        return _State(q, tuple(groups), tuple(results))
+        return State(q, tuple(groups), tuple(results))
 
-    def _standing(self, group: Group, q: Array, before: _State | None) -> Result | None:
+    def _standing(self, group: Group, q: Array, before: State | None) -> Result | None:
         """Return an earlier result for the same group with the same surroundings."""
         around = sorted(group.reads - group.free)
         if before is None or not np.array_equal(q[around], before.q[around]):
@@ -241,7 +233,7 @@ class _Moment:
             to_the_end=False,
         )
 
-    def _is_in_vain(self, group: Group, before: _State | None) -> bool:
+    def _is_in_vain(self, group: Group, before: State | None) -> bool:
         """Whether all that a group has missed so far is missed by a ghost too."""
         if before is None:
             return False
@@ -284,7 +276,7 @@ class _Moment:
             settled = again(ease, settled.q, finish=True)
         return settled
 
-    def _give_up(self, state: _State) -> None:
+    def _give_up(self, state: State) -> None:
         """Find out what cannot be met even by a ghost at ease in any posture.
 
         Looking on for its sake would be in vain. A near miss is no proof, nor are ends that differ
@@ -328,7 +320,7 @@ class _Moment:
         indices = sorted(i for p in group.problems for i in self.problems[p].demands)
         return {i: self.demands[i] for i in indices}
 
-    def _widened(self, reach: Sequence[Reach], state: _State) -> list[Reach] | None:
+    def _widened(self, reach: Sequence[Reach], state: State) -> list[Reach] | None:
         """Let problems of groups that miss move more, where that can help; none if nothing can."""
         wider = list(reach)
         for group, result in zip(state.groups, state.results, strict=True):
@@ -359,7 +351,7 @@ class _Moment:
             if j not in group.problems
         )
 
-    def _prefers(self, one: _State, other: _State) -> bool:
+    def _prefers(self, one: State, other: State) -> bool:
         """Whether to take a posture that moves more of the body."""
         a, b = self._misses(one), self._misses(other)
         if len(a) != len(b):
@@ -375,76 +367,5 @@ class _Moment:
         depth = [max(r.overlap_m for r in s.results) for s in (one, other)]
         return depth[0] < depth[1] - self.options.overlap_m
 
-    def _misses(self, state: _State) -> dict[int, float]:
+    def _misses(self, state: State) -> dict[int, float]:
         return {i: r.ratios[i] for r in state.results for i in r.missed() - r.undefined}
-
-    # Report -----------------------------------------------------------------------------------
-
-    def report(self, state: _State, began: float) -> SolveReport:
-        """Measure everything again, outside the kernels, and say why what misses misses."""
-        limits = self.rig.coordinates
-        q = np.clip(state.q, limits.lower, limits.upper)
-        frames = kinematics.frames(self.rig.chain, q)
-        dominant = self.body.evaluator.binding.dominant
-        undefined = frozenset().union(*(r.undefined for r in state.results))
-        diagnosis = Diagnosis(self.body, self.demands, self.footprints, q)
-        constraints = []
-        for i, demand in enumerate(self.demands):
-            constraint = demand.constraint
-            if isinstance(constraint, Transpath | Trill) or (
-                isinstance(constraint, Morph)
-                and not self.body.evaluator.binding.is_skeletal(constraint)
-            ):
-                continue
-            residual, unit = self.body.evaluator.residual(
-                constraint, frames, q, demand.phase, self.constraints
-            )
-            tolerance = self.options.tolerance.of(constraint)
-            met = bool(residual <= tolerance)
-            constraints.append(
-                ConstraintReport(
-                    demand,
-                    dominant,
-                    float(residual),
-                    unit,
-                    tolerance,
-                    met,
-                    None if met else self._reason(diagnosis, i, i in undefined),
-                )
-            )
-        q.setflags(write=False)
-        free = frozenset().union(*(group.free for group in state.groups))
-        explain_s = diagnosis.spent_s
-        return SolveReport(
-            q,
-            self._problem_reports(state.groups),
-            tuple(constraints),
-            self.body.obstacles.overlaps(q),
-            self.body.evaluations,
-            time.perf_counter() - began - explain_s,
-            free | frozenset(self.body.presets) - self.options.fixed,
-            explain_s,
-        )
-
-    def _reason(self, diagnosis: Diagnosis, i: int, undefined: bool) -> str:
-        return diagnosis.reason(i, undefined) if self.options.explain else "not looked into"
-
-    def _problem_reports(self, groups: Sequence[Group]) -> tuple[ProblemReport, ...]:
-        dominant = self.body.evaluator.binding.dominant
-        out: dict[int, ProblemReport] = {}
-        for group in groups:
-            first = group.problems[0]
-            parts = {self.body.anatomy.parts[v] for v in group.free}
-            moved = tuple(part.value for part in Part if part in parts)
-            for p in group.problems:
-                problem = self.problems[p]
-                out[p] = ProblemReport(
-                    problem.demands,
-                    tuple(self.constraints[i] for i in problem.demands),
-                    dominant,
-                    problem.chain,
-                    out[first] if p != first else None,
-                    moved,
-                    solve_s=self.spent_s[group.problems] if p == first else 0.0,
-                )
-        return tuple(out[p] for p in sorted(out))

@@ -21,7 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver.anatomy import Part
-from azee_solver.attempt import Body, solve_group
+from azee_solver.attempt import solve_group
+from azee_solver.body import Body
 from azee_solver.constraint import Morph, Place, Transpath, Trill
 from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator

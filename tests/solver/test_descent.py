@@ -8,7 +8,8 @@ from stick_body import stick_body
 from tree_sign import DIR, S, along, demands
 
 from azee_solver import block
-from azee_solver.attempt import Body, _Attempt
+from azee_solver.attempt import _Attempt
+from azee_solver.body import Body
 from azee_solver.constraint import Constraint, Place
 from azee_solver.descent import descended, pressed, weighing
 from azee_solver.evaluate import Evaluator

@@ -1,0 +1,109 @@
+"""What came of a moment: everything measured again, outside the kernels, and why some is missed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver import kinematics
+from azee_solver.anatomy import Part
+from azee_solver.body import Body
+from azee_solver.constraint import Morph, Transpath, Trill
+from azee_solver.demand import Demand
+from azee_solver.footprint import Footprint
+from azee_solver.problems import Problem
+from azee_solver.reasons import Diagnosis
+from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
+from azee_solver.state import State
+
+Array = NDArray[np.float64]
+
+
+def verdict(
+    body: Body,
+    demands: Sequence[Demand],
+    problems: Sequence[Problem],
+    footprints: Mapping[int, Footprint],
+    state: State,
+    spent_s: Mapping[tuple[int, ...], float],
+    began: float,
+) -> SolveReport:
+    """Return the report of a solved moment.
+
+    Args: spent_s: time that groups have taken, by their problems. began: when solving began, by
+        `time.perf_counter`.
+    """
+    limits = body.rig.coordinates
+    q = np.clip(state.q, limits.lower, limits.upper)
+    undefined = frozenset().union(*(r.undefined for r in state.results))
+    diagnosis = Diagnosis(body, demands, footprints, q)
+    constraints = tuple(_constraints(body, demands, q, diagnosis, undefined))
+    q.setflags(write=False)
+    free = frozenset().union(*(group.free for group in state.groups))
+    explain_s = diagnosis.spent_s
+    return SolveReport(
+        q,
+        _problems(body, demands, problems, state, spent_s),
+        constraints,
+        body.obstacles.overlaps(q),
+        body.evaluations,
+        time.perf_counter() - began - explain_s,
+        free | frozenset(body.presets) - body.options.fixed,
+        explain_s,
+    )
+
+
+def _constraints(
+    body: Body,
+    demands: Sequence[Demand],
+    q: Array,
+    diagnosis: Diagnosis,
+    undefined: frozenset[int],
+) -> Iterator[ConstraintReport]:
+    """Yield what became of each constraint that joints can meet."""
+    measure, asked = body.evaluator, [demand.constraint for demand in demands]
+    frames = kinematics.frames(body.rig.chain, q)
+    for i, demand in enumerate(demands):
+        constraint = demand.constraint
+        if isinstance(constraint, Transpath | Trill) or (
+            isinstance(constraint, Morph) and not measure.binding.is_skeletal(constraint)
+        ):
+            continue
+        residual, unit = measure.residual(constraint, frames, q, demand.phase, asked)
+        tolerance = body.options.tolerance.of(constraint)
+        met = bool(residual <= tolerance)
+        why = None
+        if not met:
+            explain = body.options.explain
+            why = diagnosis.reason(i, i in undefined) if explain else "not looked into"
+        dominant = measure.binding.dominant
+        yield ConstraintReport(demand, dominant, float(residual), unit, tolerance, met, why)
+
+
+def _problems(
+    body: Body,
+    demands: Sequence[Demand],
+    problems: Sequence[Problem],
+    state: State,
+    spent_s: Mapping[tuple[int, ...], float],
+) -> tuple[ProblemReport, ...]:
+    """Return what became of each problem, in the order of their dependencies."""
+    out: dict[int, ProblemReport] = {}
+    for group in state.groups:
+        first = group.problems[0]
+        parts = {body.anatomy.parts[v] for v in group.free}
+        for p in group.problems:
+            problem = problems[p]
+            out[p] = ProblemReport(
+                problem.demands,
+                tuple(demands[i].constraint for i in problem.demands),
+                body.evaluator.binding.dominant,
+                problem.chain,
+                out[first] if p != first else None,
+                tuple(part.value for part in Part if part in parts),
+                solve_s=spent_s[group.problems] if p == first else 0.0,
+            )
+    return tuple(out[p] for p in sorted(out))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +17,10 @@ from azee_rig.skeleton import frozen
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_SMOOTH_NORMALS = Kernel("azee_rig.skin_kernel", "smooth_normals", "azee_rig.pointers")
+_SMOOTH_NORMALS, _UNIT_TURNS = (
+    Kernel("azee_rig.skin_kernel", name, "azee_rig.pointers")
+    for name in ("smooth_normals", "unit_turns")
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +100,35 @@ def vertex_normals(vertices: Floats, triangles: Ints) -> Floats:
     normals = np.empty_like(vertices)
     _SMOOTH_NORMALS(len(vertices), len(triangles), vertices, triangles, normals)
     return normals
+
+
+def turned_normals(mesh: BodyMesh) -> Iterator[tuple[Ints, Floats]]:
+    """Yield for every face unit whose normals it changes, (n,) increasing, and to what, (n, 3).
+
+    At weight 1. A normal is the mean of the normals around it, weighted by area, as in
+    `vertex_normals`.
+    """
+    T, count = np.ascontiguousarray(mesh.triangles, dtype=np.int64), len(mesh.vertices)
+    corners = T.ravel()
+    a, b, c = (mesh.vertices[T[:, k]] for k in range(3))
+    faces = np.cross(b - a, c - a)
+    sums = np.stack(
+        [np.bincount(corners, np.repeat(faces[:, k], 3), count) for k in range(3)], axis=1
+    )
+    around = np.argsort(corners, kind="stable") // 3
+    starts = np.concatenate([[0], np.cumsum(np.bincount(corners, minlength=count))])
+    shifts, changes = np.zeros((count, 3)), np.empty((count, 3))
+    seen, met = np.full(len(T), -1), np.full(count, -1)
+    number, whose, turned = np.zeros(1, np.int64), np.empty(count, np.int64), np.empty((count, 3))
+    for stamp, name in enumerate(mesh.units):
+        rows, deltas = (np.ascontiguousarray(part) for part in mesh.unit(name))
+        _UNIT_TURNS(
+            *(count, len(T), len(rows), stamp, rows, deltas, mesh.vertices, T),
+            *(around, starts, sums, shifts, changes, seen, met, number, whose, turned),
+        )
+        found = int(number[0])
+        order = np.argsort(whose[:found])
+        yield whose[:found][order], turned[:found][order]
 
 
 def read_mesh(path: Path) -> BodyMesh:

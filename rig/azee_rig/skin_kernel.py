@@ -71,3 +71,76 @@ def smooth_normals(words):  # type: ignore[no-untyped-def]
         if length > 0.0:
             for r in range(3):
                 out[v, r] /= length
+
+
+@cfunc(WORDS, cache=not KEEPS, error_model="numpy")
+def unit_turns(words):  # type: ignore[no-untyped-def]
+    """Work out how one face unit turns normals: only triangles that it moves are looked at.
+
+    Words: N, F, n, stamp, which no call before had; rows (n,) that move, by deltas (n, 3);
+    vertices (N, 3), triangles (F, 3), those around vertices, one vertex' after the other's (3F,),
+    and where they start (N + 1,), sums of triangles' normals by area (N, 3); room for shifts
+    (N, 3), which are zero, for changes (N, 3), and for stamps of triangles (F,) and vertices (N,);
+    results: how many normals turn (1,), whose (N,), and their new directions (N, 3).
+    """
+    w = carray(words, (18,))
+    count, faces, moved, stamp = w[0], w[1], w[2], w[3]
+    rows, deltas = integers(w[4], (moved,)), reals(w[5], (moved, 3))
+    vertices, triangles = reals(w[6], (count, 3)), integers(w[7], (faces, 3))
+    around, starts = integers(w[8], (3 * faces,)), integers(w[9], (count + 1,))
+    sums, shift, change = (
+        reals(w[10], (count, 3)),
+        reals(w[11], (count, 3)),
+        reals(w[12], (count, 3)),
+    )
+    seen, met = integers(w[13], (faces,)), integers(w[14], (count,))
+    number, whose, turned = (
+        integers(w[15], (1,)),
+        integers(w[16], (count,)),
+        reals(w[17], (count, 3)),
+    )
+    for n in range(moved):
+        for r in range(3):
+            shift[rows[n], r] = deltas[n, r]
+    found = 0
+    for n in range(moved):
+        for place in range(starts[rows[n]], starts[rows[n] + 1]):
+            t = around[place]
+            if seen[t] == stamp:
+                continue
+            seen[t] = stamp
+            a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+            for k in range(3):
+                v = triangles[t, k]
+                if met[v] != stamp:
+                    met[v] = stamp
+                    whose[found] = v
+                    found += 1
+                    for r in range(3):
+                        change[v, r] = 0.0
+            for r in range(3):
+                i, j = (r + 1) % 3, (r + 2) % 3
+                ui, uj = vertices[b, i] - vertices[a, i], vertices[b, j] - vertices[a, j]
+                wi, wj = vertices[c, i] - vertices[a, i], vertices[c, j] - vertices[a, j]
+                before = ui * wj - uj * wi
+                ui += shift[b, i] - shift[a, i]
+                uj += shift[b, j] - shift[a, j]
+                wi += shift[c, i] - shift[a, i]
+                wj += shift[c, j] - shift[a, j]
+                gain = ui * wj - uj * wi - before
+                for k in range(3):
+                    change[triangles[t, k], r] += gain
+    for n in range(found):
+        v = whose[n]
+        length = 0.0
+        for r in range(3):
+            turned[n, r] = sums[v, r] + change[v, r]
+            length += turned[n, r] ** 2
+        length = math.sqrt(length)
+        if length > 0.0:
+            for r in range(3):
+                turned[n, r] /= length
+    for n in range(moved):
+        for r in range(3):
+            shift[rows[n], r] = 0.0
+    number[0] = found

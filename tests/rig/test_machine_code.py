@@ -175,4 +175,4 @@ for kernel in kernels.values():
 print(len(kernels), "numba" in sys.modules)
 """
     python("-c", script, expect=0)
-    assert python("-c", script, expect=0).stdout.split() == ["5", "False"]
+    assert python("-c", script, expect=0).stdout.split() == ["6", "False"]

@@ -26,7 +26,7 @@ check: $(READY) ## format, lint, types and the fast tests: before every commit
 	@$(RUN) -m ruff check .
 	@$(RUN) -m mypy
 	@$(RUN) -m mypy $(wildcard $(addsuffix /**/*.py,$(TYPED)) $(addsuffix /*.py,$(TYPED)))
-	@$(RUN) -m pytest -q -m "not slow and not node and not browser"
+	@$(RUN) -m pytest -q -n auto -m "not slow and not node and not browser"
 
 format: $(READY) ## put every file into the one format
 	@$(RUN) -m ruff format .

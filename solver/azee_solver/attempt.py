@@ -158,7 +158,8 @@ class _Attempt:
             if best is None or gains(found, merit(best, options)):
                 in_vain, returns = 0, 0
             elif again:
-                in_vain += 1 if result.worst() < POLISH else AGAIN
+                near = result.worst() < POLISH and (thorough or self.ease)
+                in_vain += 1 if near else AGAIN
             else:
                 in_vain += BLOCKED if excess(result, options) and not thorough else 1
             if best is None or found < merit(best, options):

@@ -40,6 +40,8 @@ Array = NDArray[np.float64]
 
 CLEARLY = 0.7
 """Moving more of the body is worth it for misses below this part of the others."""
+DODGED_M = 0.02
+"""Deeper overlaps than a finger is thick are none that fingers get out of."""
 LEAP_RAD = math.radians(1.5)
 """Along a movement, where a coordinate changes by more than this, more of the body may share it."""
 AGREED = 2
@@ -337,7 +339,8 @@ class _Moment:
                 for r in Reach:
                     gain = steps[r] - group.free - self.options.fixed
                     linked = r is Reach.TRUNK > reach[p] and self._is_linked(p, group)
-                    helps = gain & touched or (gain and (in_the_way or leaps))
+                    dodges = in_the_way and (r > Reach.FINGERS or result.overlap_m < DODGED_M)
+                    helps = gain & touched or (gain and (dodges or leaps))
                     if r > reach[p] and (helps or linked):
                         wider[p] = r
                         break

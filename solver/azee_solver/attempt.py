@@ -37,8 +37,9 @@ can move the body out of the way."""
 AGAIN = 4
 """So many times counts a descent that ends where the best one did, unless that is a near miss: the
 more descents end there, the less likely is it that there is anything better."""
-RETURNS = 9
-"""So many descents that come back to the same end, with the body and through it, end the search."""
+RETURNS, CLEAR_RETURNS = 9, 3
+"""So many descents that come back to the same end, with the body and through it, end the search;
+where nothing is missed and only a little overlap is left, so many."""
 DEEP = 2.0
 """Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
 FIRM = 4.0
@@ -158,7 +159,7 @@ class _Attempt:
             if best is None or gains(found, merit(best, options)):
                 in_vain, returns = 0, 0
             elif again:
-                near = result.worst() < POLISH and (thorough or self.ease)
+                near = 1.0 < result.worst() < POLISH and (thorough or self.ease)
                 in_vain += 1 if near else AGAIN
             else:
                 in_vain += BLOCKED if excess(result, options) and not thorough else 1
@@ -189,7 +190,8 @@ class _Attempt:
                 out = self.press(through).q[self.program.free]
             for x in (start, out):
                 result = self._polished(self.press(x))
-                returned += is_again(merit(result, options), merit(best, options))
+                if is_again(merit(result, options), merit(best, options)):
+                    returned += 1 if best.lost() else RETURNS // CLEAR_RETURNS
                 best = min(best, result, key=lambda r: merit(r, options))
                 if (not best.lost() and not excess(best, options)) or returned >= RETURNS:
                     return best

@@ -174,8 +174,18 @@ def read_signs(found: Findings, console: Console) -> None:
     console.print(tables.signs(found.signs))
     found.figure_5 += figure_5(load_rig(), TREE)
     console.print(tables.figure_5(found.figure_5))
-    tree = 1000 * example_tree(load_rig(), TREE, runs=9)
-    found.goals.append(Goal("tree, full body, all on", tree, "ms", at_most=15))
+    for thumb, what in ((True, "tree"), (False, "tree without its impossible thumb")):
+        full, apart = example_tree(
+            load_rig(),
+            TREE,
+            runs=15,
+            methods=("ours, everything on", "ours, no collision"),
+            thumb=thumb,
+        )
+        found.goals += [
+            Goal(f"{what}, full body, all on", 1000 * full, "ms", at_most=15),
+            Goal(f"{what}, full body: collision on / off", full / apart, "×", at_most=3),
+        ]
 
 
 def scale(found: Findings, console: Console, repeats: int) -> None:

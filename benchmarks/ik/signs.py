@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import statistics
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from azee.compilation import Method, perform, score_of
 from azee.lang.program import load
 from azee_grammar.files import read_source
 from azee_rig.rig import Rig
-from azee_solver.constraint import Place
+from azee_solver.constraint import Constraint, Orient, Place
 from benchmarks.ik.clock import Clock
 from benchmarks.ik.methods import METHODS
 from benchmarks.ik.problems import Problem
@@ -24,13 +24,28 @@ def examples() -> list[Path]:
     return sorted(path for path in EXAMPLES.glob("*/*.azee") if path.stem == path.parent.name)
 
 
-def example_tree(rig: Rig, source: Path, runs: int) -> float:
-    """Return how long the solver takes for the posture of the example, seconds."""
+def example_tree(
+    rig: Rig, source: Path, runs: int, *, methods: Sequence[str], thumb: bool = True
+) -> list[float]:
+    """Return how long methods take for the posture of the example, seconds.
+
+    Args: thumb: ask for the published directions of the thumb too, of which one is impossible.
+    """
     score = score_of(load(read_source(source)), None, None)
     demands = perform(score, rig, mode="flat").report.postures[0].demands
+    if not thumb:
+        demands = tuple(d for d in demands if not _is_of_thumb(d.constraint))
     asked = Problem("tree", 0, demands, ())
-    everything = METHODS["ours, everything on"]
-    return statistics.median(everything(rig, asked).seconds for _ in range(runs))
+    for name in methods:
+        METHODS[name](rig, asked)
+    return [
+        statistics.median(METHODS[name](rig, asked).seconds for _ in range(runs))
+        for name in methods
+    ]
+
+
+def _is_of_thumb(constraint: Constraint) -> bool:
+    return isinstance(constraint, Orient) and constraint.bone.name == "thumb"
 
 
 def figure_5(rig: Rig, source: Path) -> list[dict[str, object]]:

@@ -31,9 +31,9 @@ LEVEL_RAD = math.radians(2.0)
 GAZING_LEVEL_RAD = math.radians(5.0)
 """The same for its tilt while the eyes are led."""
 
-BLOCKED = 3
-"""A descent that ends in the body counts so many times against looking on, where a wider problem
-can move the body out of the way."""
+BLOCKED = 2
+"""A descent that ends in the body counts so many times more against looking on, where a wider
+problem can move the body out of the way."""
 AGAIN = 4
 """So many times counts a descent that ends where the best one did, unless that is a near miss: the
 more descents end there, the less likely is it that there is anything better."""
@@ -158,11 +158,10 @@ class _Attempt:
             returns += again
             if best is None or gains(found, merit(best, options)):
                 in_vain, returns = 0, 0
-            elif again:
-                near = 1.0 < result.worst() < POLISH and (thorough or self.ease)
-                in_vain += 1 if near else AGAIN
             else:
-                in_vain += BLOCKED if excess(result, options) and not thorough else 1
+                near = 1.0 < result.worst() < POLISH and (thorough or self.ease)
+                in_vain += AGAIN if again and not near else 1
+                in_vain += BLOCKED if excess(result, options) and not thorough else 0
             if best is None or found < merit(best, options):
                 best = result
             if in_vain >= options.patience * (2 if thorough else 1):

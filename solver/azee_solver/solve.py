@@ -126,11 +126,11 @@ class _Moment:
         reach = [self._begun(problem) for problem in self.problems]
         tried = [(reach, self._in_order(reach, None))]
         while wider := self._widened(*tried[-1]):
-            self._give_up(tried[-1][1])
+            self._give_up(tried[-1][1], in_the_way=False)
             tried.append((wider, self._in_order(wider, tried[-1][1])))
         reach, state = tried[-1]
         if not all(self._is_well(result) for result in state.results):
-            self._give_up(state)
+            self._give_up(state, in_the_way=True)
             tried[-1] = reach, self._in_order(reach, state, thorough=True)
         met = [state for _, state in tried if not state.missed()]
         if met and self.options.inertia:
@@ -278,20 +278,26 @@ class _Moment:
             settled = again(ease, settled.q, finish=True)
         return settled
 
-    def _give_up(self, state: State) -> None:
+    def _give_up(self, state: State, *, in_the_way: bool) -> None:
         """Find out what cannot be met even by a ghost at ease in any posture.
 
         Looking on for its sake would be in vain. A near miss is no proof, nor are ends that differ
         from start to start.
+
+        Args: in_the_way: ask too where it may well be that the body is in the way.
         """
-        lost = frozenset().union(*(r.lost() for r in state.results))
+        asked = [
+            (group, result)
+            for group, result in zip(state.groups, state.results, strict=True)
+            if result.lost() and (in_the_way or result.overlap_m < DODGED_M)
+        ]
+        lost = frozenset().union(*(result.lost() for _, result in asked))
         if lost <= self.looked_into:
             return
         self.looked_into |= lost
         demands: dict[int, Demand] = {}
-        for group, result in zip(state.groups, state.results, strict=True):
-            if result.lost():
-                demands |= self._demands_of(group)
+        for group, _ in asked:
+            demands |= self._demands_of(group)
         free = frozenset().union(*(self.footprints[i].affected(self.body.anatomy) for i in demands))
         free -= self.options.fixed
         if not free:

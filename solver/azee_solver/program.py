@@ -26,13 +26,14 @@ Ints = NDArray[np.int64]
 
 
 _POINTER = ctypes.c_void_p
-_EVALUATE = Kernel(
+_OBJECTIVE = Kernel(
     "azee_solver.kernels.evaluate",
     "evaluate",
     "azee_solver.kernels",
     "azee_solver.block",
     "azee_rig.pointers",
-).address
+)
+_EVALUATE = _OBJECTIVE.address
 """Where the compiled objective lies."""
 _evaluate = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_uint, _POINTER, _POINTER, _POINTER)(
     _EVALUATE

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import math
 import shutil
@@ -13,8 +14,9 @@ import numpy as np
 import pytest
 from programs import Python
 
-from azee_rig import machine_code
+from azee_rig import machine_code, skin
 from azee_rig.machine_code import Kernel
+from azee_solver import kinematics, program, winding
 
 pytestmark = pytest.mark.skipif(not machine_code.KEEPS, reason="numba keeps its own code here")
 
@@ -44,6 +46,7 @@ RUN = """
 import json, sys
 import numpy as np
 from azee_rig.machine_code import Kernel
+from azee_solver import kinematics, program, winding
 x = np.linspace(0.0, 3.0, 50)
 out = np.empty(50)
 Kernel("waved", "waves", "azee_rig.pointers")(50, x, out)
@@ -168,6 +171,7 @@ def test_all_our_kernels_are_kept(python: Python) -> None:
 import sys
 import azee_solver.program, azee_solver.kinematics, azee_solver.winding, azee_rig.skin
 from azee_rig.machine_code import Kernel
+from azee_solver import kinematics, program, winding
 modules = [m for n, m in sys.modules.items() if n.startswith("azee_")]
 kernels = {id(k): k for m in modules for k in vars(m).values() if isinstance(k, Kernel)}
 for kernel in kernels.values():
@@ -175,4 +179,18 @@ for kernel in kernels.values():
 print(len(kernels), "numba" in sys.modules)
 """
     python("-c", script, expect=0)
-    assert python("-c", script, expect=0).stdout.split() == ["6", "False"]
+    assert python("-c", script, expect=0).stdout.split() == ["7", "False"]
+
+
+@pytest.mark.parametrize(
+    "kernel", [program._OBJECTIVE, kinematics._POSE, winding._WIND, skin._BLENDED]
+)
+def test_a_kernel_names_all_sources_that_go_into_it(kernel: Kernel) -> None:
+    """A change in one that it does not name would go unnoticed."""
+    named = {*kernel._sources, "azee_rig.machine_code"}
+    for file in kernel._files():
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module and node.module[:4] == "azee":
+                parts = node.module.split(".")
+                packages = {".".join(parts[: n + 1]) for n in range(len(parts))}
+                assert packages & named, f"{file.name} imports {node.module}"

@@ -16,8 +16,9 @@ class SolveOptions:
     posture: per squared radian away from the reference, times the coordinate's squared stiffness;
     comfort: per squared part of a half range beyond 80 % of it; overlap: per squared metre that
     two capsules overlap, 0 to let bodies pass through each other; overlap_m: what is tolerated of
-    that. max_evaluations and descent_tolerance end one descent of NLopt's, polish_rounds and
-    polish_tolerance the Gauss-Newton steps after it, finish_work (steps times coordinates) and
+    that. approach_evaluations end NLopt's part of a descent that begins soft, max_evaluations one
+    at the full price, descent_tolerance either; polish_rounds and polish_tolerance the
+    Gauss-Newton steps after it, finish_work (steps times coordinates) and
     finish_tolerance those that the best of all descents ends with. further_starts: of the Halton
     sequence. patience: so many descents in a row that gain nothing end the search; twice as many
     if no wider problem can take over. explain: find out why what misses misses, by solving

@@ -55,7 +55,7 @@ def _grouped(
     fixed: frozenset[int],
 ) -> tuple[Group, ...]:
     free = [problem.steps[r] - fixed for problem, r in zip(problems, reach, strict=True)]
-    trunk, head = anatomy.of(Part.TRUNK), anatomy.of(Part.HEAD)
+    trunk, head, arms = (anatomy.of(part) for part in (Part.TRUNK, Part.HEAD, Part.ARM))
     own = frozenset().union(*(problem.steps[Reach.OWN] for problem in problems))
     if not own & head or all(_is_gaze(p, anatomy) for p in problems if p.steps[0] & head):
         free = [f | (head - fixed) if f & trunk else f for f in free]
@@ -73,7 +73,8 @@ def _grouped(
                 together.join(i, j)
         if reach[i] >= Reach.TRUNK:
             for j, other in enumerate(problems):
-                if free[j] & (problems[i].reads - free[i]) and other.steps[0] - fixed:
+                hangs = bool(free[j] & arms) and other.needs(problems[i])
+                if (free[j] & (problems[i].reads - free[i]) and other.steps[0] - fixed) or hangs:
                     together.join(i, j)
     sets = together.sets()
     moved = [frozenset().union(*(free[i] for i in s)) for s in sets]

@@ -25,7 +25,7 @@ from azee_solver.block import (
     VALUES,
 )
 from azee_solver.kernels.objective import astray, discomfort
-from azee_solver.kernels.sections import matrix, part, stack
+from azee_solver.kernels.sections import along, matrix, part, stack
 from azee_solver.kernels.slopes import differentiate, lever
 
 
@@ -36,7 +36,7 @@ def _add_square(row, error, weight, hessian, gradient):  # type: ignore[no-untyp
         if row[i] != 0.0:
             c = weight * row[i]
             gradient[i] += c * error
-            for j in range(i, row.shape[0]):
+            for j in along(i, row.shape[0]):
                 hessian[i, j] += c * row[j]
 
 

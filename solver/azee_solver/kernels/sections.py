@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from numba import njit
 from numba.extending import intrinsic
 
@@ -42,3 +43,9 @@ def stack(array, ints, section, count, rows, columns):  # type: ignore[no-untype
     """Return a section as so many matrices."""
     place = ints[section]
     return carray(_word(array, place), (count, rows, columns))  # type: ignore[call-arg]
+
+
+@njit(**INNER)
+def along(start, stop):  # type: ignore[no-untyped-def]
+    """Range of indices that are known not to be negative: LLVM makes vectors of such loops."""
+    return range(np.uint64(start), np.uint64(stop))

@@ -7,6 +7,7 @@ import math
 from numba import njit
 
 from azee_rig.pointers import INNER
+from azee_solver.kernels.sections import along
 
 
 @njit(**INNER)
@@ -25,12 +26,12 @@ def _newton_step(free, count, damping, gradient, hessian, factor, step):  # type
         factor[r, r] += damping * factor[r, r] + 1e-12
     for r in range(count):
         pivot = math.sqrt(max(factor[r, r], 1e-300))
-        for c in range(r, count + 1):
+        for c in along(r, count + 1):
             factor[r, c] /= pivot
         for i in range(r + 1, count):
             share = factor[r, i]
             if share != 0.0:
-                for c in range(i, count + 1):
+                for c in along(i, count + 1):
                     factor[i, c] -= share * factor[r, c]
     for r in range(count - 1, -1, -1):
         solved = factor[r, count]

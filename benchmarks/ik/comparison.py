@@ -16,6 +16,8 @@ from azee_solver.geometry import Side
 from benchmarks.ik.methods import Answer, Method
 from benchmarks.ik.problems import LOOSE, TIGHT, Maker, Problem
 
+TURN = 10
+"""So many problems a method solves before the next one has its turn."""
 WORST = 3
 """How many of the worst misses are kept."""
 
@@ -142,14 +144,20 @@ def compared(
     methods: Mapping[str, Method],
     elsewhere: Mapping[str, Callable[[Rig, Sequence[Problem]], Sequence[Answer]]],
 ) -> Iterator[list[Row]]:
-    """Yield the rows of one class after the other; each method warms up on the first problem."""
+    """Yield the rows of one class after the other.
+
+    Methods take turns every few problems, so that a processor that becomes slower does so to all;
+    each warms up at the beginning of its turn.
+    """
     maker = Maker(rig)
     for kind in kinds:
         problems = list(maker.problems(kind, count))
-        rows = []
-        for name, method in methods.items():
-            method(rig, problems[0])
-            rows.append(row(body, rig, name, problems, [method(rig, p) for p in problems]))
+        answers: dict[str, list[Answer]] = {name: [] for name in methods}
+        for first in range(0, count, TURN):
+            for name, method in methods.items():
+                method(rig, problems[first])
+                answers[name] += [method(rig, p) for p in problems[first : first + TURN]]
+        rows = [row(body, rig, name, problems, answers[name]) for name in methods]
         for name, solve in elsewhere.items():
             rows.append(row(body, rig, name, problems, solve(rig, problems)))
         yield rows

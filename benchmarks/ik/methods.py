@@ -106,7 +106,7 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
     for start in known:
         x = descended(program, start, FULL)
         program(x, np.empty(0))
-        ratio = max(residuals.ratios(program.gaps(), asked, FULL.tolerance).values())
+        ratio = max(residuals.ratios(program.lengths(), asked, FULL.tolerance).values())
         if ratio < worst:
             best, worst = x, ratio
         if worst <= 1.0:

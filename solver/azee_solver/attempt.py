@@ -15,6 +15,7 @@ from azee_solver.anatomy import Part, part_of
 from azee_solver.binding import Binding
 from azee_solver.body import Body
 from azee_solver.broadphase import Collisions
+from azee_solver.collisions import MARGIN_M, depths
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
 from azee_solver.demand import Demand
 from azee_solver.descent import descended, pressed, refined, weighing
@@ -142,6 +143,7 @@ class _Attempt:
         After a descent that ended where the best one did the next one goes another way about it.
         """
         options = self.body.options
+        patience = options.patience * (2 if thorough else 1)
         best: Result | None = None
         in_vain, returns, again = 0, 0, False
         tried: set[bytes] = set()
@@ -164,7 +166,7 @@ class _Attempt:
                 in_vain += BLOCKED if excess(result, options) and not thorough else 0
             if best is None or found < merit(best, options):
                 best = result
-            if in_vain >= options.patience * (2 if thorough else 1):
+            if in_vain >= patience or (again and self._will_do(best)):
                 break
         assert best is not None
         return replace(best, again=returns)
@@ -176,7 +178,7 @@ class _Attempt:
         little and pushes the posture out of itself.
         """
         options = self.body.options
-        if not options.overlap or not (best.lost() or excess(best, options)):
+        if not options.overlap or self._will_do(best):
             return best
         starts = list(at_hand)
         probes = [best.q[self.program.free], *starts[: UNHINDERED - 1]]
@@ -195,6 +197,15 @@ class _Attempt:
                 if (not best.lost() and not excess(best, options)) or returned >= RETURNS:
                     return best
         return best
+
+    def _will_do(self, result: Result) -> bool:
+        """Whether nothing is missed and nothing overlaps, but for the margin around bodies."""
+        tolerated_m = self.body.options.overlap_m
+        if result.lost() or result.overlap_m > tolerated_m + MARGIN_M:
+            return False
+        return result.overlap_m <= tolerated_m or bool(
+            depths(self.body.rig, self.collisions, result.q).max() <= tolerated_m
+        )
 
     def _through(self, start: Array) -> Result:
         """Return where a descent ends to which the body gives way."""
@@ -269,7 +280,7 @@ class _Attempt:
     def _measure(self, x: Array) -> Result:
         self.program(x, np.empty(0))
         ratios = self.residuals.ratios(
-            self.program.gaps(), self.demands, self.body.options.tolerance
+            self.program.lengths(), self.demands, self.body.options.tolerance
         )
         q = self.q.copy()
         q[self.program.free] = x

@@ -76,7 +76,7 @@ FOLLOWING = 2.0 / 3.0
 
 SHORT = 1e-12
 
-FIRST_DAMPING, MOST_DAMPING = 1e-3, 1e6
+FIRST_DAMPING, MOST_DAMPING = 1e-4, 1e6
 """Of Gauss-Newton steps: at first, as parts of the curvature, and where they are given up."""
 
 UNDEFINED = 1e300

@@ -23,10 +23,15 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Collisions:
-    """Capsules that must stay apart. pairs: (P, 2) capsules of the rig; reach: (P,) metres."""
+    """Capsules that must stay apart.
+
+    pairs: (P, 2) capsules of the rig. reach: (P,) how near their axes may come, metres. margin:
+    (P,) how much of that is a wish: so much nearer they touch.
+    """
 
     pairs: Ints
     reach: Array
+    margin: Array | float = 0.0
 
     @staticmethod
     def none() -> Collisions:

@@ -93,14 +93,20 @@ class Obstacles:
     def overlaps(self, q: Array) -> tuple[Overlap, ...]:
         """Pairs that overlap in a posture (V,), deepest first."""
         names = self.rig.capsules.names
-        reach = self.reach - self._clearance.margin
-        nothing = np.empty(0, dtype=np.int64)
-        depth = Parting(self.rig, self.pairs).depths(q[None], reach, nothing)[0][0]
+        depth = depths(self.rig, Collisions(self.pairs, self.reach, self._clearance.margin), q)
         inside = np.flatnonzero(depth > 0.0)
         return tuple(
             Overlap(names[self.pairs[n, 0]], names[self.pairs[n, 1]], float(depth[n]))
             for n in inside[np.argsort(-depth[inside], kind="stable")]
         )
+
+
+def depths(rig: Rig, collisions: Collisions, q: Array) -> Array:
+    """How deep pairs overlap in a posture (V,), margins left out, (P,) metres; less than 0: not."""
+    reach = collisions.reach - collisions.margin
+    nothing = np.empty(0, dtype=np.int64)
+    depth, _ = Parting(rig, collisions.pairs).depths(q[None], reach, nothing)
+    return np.asarray(depth[0])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -143,7 +149,7 @@ def _changed(clear: _Clearance, free: frozenset[int], unsettled: frozenset[int])
     absent = np.logical_and(absent, ~np.logical_or.reduce(moves[:, mine], axis=1))[clear.nodes]
     changed = np.logical_or.reduce(clear.relative[:, mine], axis=1)
     chosen = np.logical_and(changed, ~np.logical_or.reduce(absent, axis=1))
-    return Collisions(clear.pairs[chosen], clear.reach[chosen])
+    return Collisions(clear.pairs[chosen], clear.reach[chosen], clear.margin[chosen])
 
 
 def _meant(constraints: Iterable[Constraint]) -> Iterator[tuple[Site, Site, bool]]:

@@ -9,9 +9,6 @@ postures found so more are the best that are known than of those found at the fu
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,7 +18,7 @@ from azee_solver.program import Program
 
 Array = NDArray[np.float64]
 
-SOFT = 0.01
+SOFT = 0.003
 """Part of their price that misses and overlaps cost at first."""
 
 
@@ -50,42 +47,42 @@ def refined(program: Program, x: Array, options: SolveOptions) -> Array:
     return program.polish(x, rounds=options.polish_rounds, tolerance=options.polish_tolerance)
 
 
-@contextmanager
-def weighing(
-    program: Program,
-    *,
-    misses: float = 1.0,
-    overlap: float = 1.0,
-    each: Array | None = None,
-    ease: Array | None = None,
-) -> Iterator[None]:
-    """Let misses and overlaps cost parts of what they do.
+class weighing:  # noqa: N801 - used as a statement
+    """Let misses and overlaps cost parts of what they do, as long as a `with` lasts.
 
     Args: each: parts for single rows, (R,). ease: parts that posture and comfort cost, per free
         coordinate, (n,).
     """
-    share, resistance, rows, posture = (
-        program.section(section)
-        for section in (
-            block.MISS_SHARE,
-            block.OVERLAP_WEIGHT,
-            block.ROW_NUMBERS,
-            block.POSTURE,
-        )
-    )
-    changed = [share, resistance]
-    changed += [] if each is None else [rows]
-    changed += [] if ease is None else [posture]
-    kept = [section.copy() for section in changed]
-    share *= misses
-    resistance *= overlap
-    if each is not None:
-        rows[::2] *= each
-    if ease is not None:
-        posture[1::5] *= ease
-        posture[4::5] *= ease
-    try:
-        yield
-    finally:
-        for section, values in zip(changed, kept, strict=True):
+
+    def __init__(
+        self,
+        program: Program,
+        *,
+        misses: float = 1.0,
+        overlap: float = 1.0,
+        each: Array | None = None,
+        ease: Array | None = None,
+    ) -> None:
+        self._program, self._shares = program, (misses, overlap)
+        self._each, self._ease = each, ease
+        self._kept: list[tuple[Array, Array | float]] = []
+
+    def __enter__(self) -> None:
+        program = self._program
+        for price, share in zip(program.prices, self._shares, strict=True):
+            self._kept.append((price, float(price[0])))
+            price[0] *= share
+        if self._each is not None:
+            self._keep(program.section(block.ROW_NUMBERS))[::2] *= self._each
+        if self._ease is not None:
+            posture = self._keep(program.section(block.POSTURE))
+            posture[1::5] *= self._ease
+            posture[4::5] *= self._ease
+
+    def _keep(self, section: Array) -> Array:
+        self._kept.append((section, section.copy()))
+        return section
+
+    def __exit__(self, *failure: object) -> None:
+        for section, values in self._kept:
             section[:] = values

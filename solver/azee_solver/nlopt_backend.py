@@ -180,6 +180,9 @@ class Compiled:
         """
         self.function, self.block = function, block
         self.lower, self.upper, self.best = lower, upper, best
+        self._x = np.empty(len(lower))
+        self._at, self._value = address(self._x), ctypes.c_double()
+        self._found = ctypes.byref(self._value)
         self._optimisers: dict[int, int] = {}
         self._destroy: Callable[[int], object] = int
 
@@ -212,16 +215,15 @@ class Compiled:
             return None
         first = start.clip(self.lower, self.upper)
         best[0], best[1:] = math.inf, first
-        x, value = first.copy(), ctypes.c_double()
         for algorithm in ALGORITHMS:
             optimiser = self._optimiser(library, algorithm)
             library.nlopt_set_ftol_rel(optimiser, tolerance)
             library.nlopt_set_maxeval(optimiser, max_evaluations)
-            x[:] = first
-            result = library.nlopt_optimize(optimiser, address(x), ctypes.byref(value))
+            self._x[:] = first
+            result = library.nlopt_optimize(optimiser, self._at, self._found)
             if result == OUT_OF_MEMORY:
                 raise MemoryError("NLopt")
-            if result > 0 or not np.array_equal(best[1:], first):
+            if result > 0 or best[1:].tobytes() != first.tobytes():
                 break
         return Minimum(best[1:].clip(self.lower, self.upper), float(best[0]))
 

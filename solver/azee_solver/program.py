@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -69,7 +70,8 @@ class Program:
     """A problem in one block of words, and the objective that runs on it.
 
     ints, reals: the block, read as either; see `kernels`. rows: as given, with indices into the
-    tape's used entries. free: (n,) coordinates that x stands for. lower, upper: (n,).
+    tape's used entries. free: (n,) coordinates that x stands for. lower, upper: (n,). prices: what
+    part of its price a miss costs, and what a squared metre of overlap, (1,) each.
     """
 
     def __init__(
@@ -116,9 +118,13 @@ class Program:
         self.section(k.OVERLAP_WEIGHT)[0] = cost.overlap
         self.section(k.POSITIONS)[:] = tape.frames.positions.ravel()
         self.section(k.ROTATIONS)[:] = tape.frames.rotations.ravel()
-        self._at, spare = self._scratch = np.empty((2, len(self.free)))
-        self._at_address = address(self._at)
-        self._spare_address = self._at_address + spare.nbytes
+        self.prices = self.section(k.MISS_SHARE), self.section(k.OVERLAP_WEIGHT)
+        self._damping, self._tolerance = self.section(k.DAMPING), self.section(k.TOLERANCE)
+        self._count = len(self.free)
+        self._rounds = self.ints[self.layout.sections[k.ROUNDS]]
+        self._at, self._spare = scratch = np.empty((2, len(self.free)))
+        self._at_address = address(scratch)
+        self._spare_address = self._at_address + self._at.nbytes
         self.compiled = Compiled(
             _EVALUATE, address(self.ints), self.lower, self.upper, self.section(k.BEST)
         )
@@ -126,11 +132,14 @@ class Program:
     def __call__(self, x: Array, gradient: Array) -> float:
         """Objective at x (n,); its gradient goes into `gradient`, unless that is empty."""
         self._at[:] = x
-        slope = address(gradient) if len(gradient) else self._spare_address
-        return self._evaluated(slope)
+        value = self._evaluated(self._spare_address)
+        if len(gradient):
+            gradient[:] = self._spare
+        return value
 
     def _evaluated(self, slope: int) -> float:
-        return float(_evaluate(len(self.free), self._at_address, slope, self.compiled.block))
+        value: float = _evaluate(self._count, self._at_address, slope, self.compiled.block)
+        return value
 
     @property
     def evaluations(self) -> int:
@@ -158,31 +167,28 @@ class Program:
             where the last call has led: steps are as bold as they were there.
         """
         if not going_on:
-            self.section(k.DAMPING)[0] = k.FIRST_DAMPING
-        self._at[:] = x
-        self._at.clip(self.lower, self.upper, out=self._at)
-        self.section(k.TOLERANCE)[0] = tolerance
-        self.ints[self.ints[k.ROUNDS]] = rounds
+            self._damping[0] = k.FIRST_DAMPING
+        x.clip(self.lower, self.upper, out=self._at)
+        self._tolerance[0] = tolerance
+        self._rounds[0] = rounds
         self._evaluated(self._spare_address)
-        self.ints[self.ints[k.ROUNDS]] = 0
+        self._rounds[0] = 0
         return self._at.copy()
 
     def section(self, section: int) -> Array:
         """Return a view of a section of the reals, flat."""
         return self.reals[self.layout.sections[section]]
 
-    def gaps(self) -> Array:
-        """Differences that the residuals measured at the last x, (rows, 3); a · b as (·, 0, 0)."""
-        values = self.section(k.VALUES).reshape(-1, 3)
-        out = values[self.layout.rows[:, 1]] - values[self.layout.rows[:, 2]]
+    def lengths(self) -> list[float]:
+        """Return how far each row was from being met at the last x: metres, chords or cosines."""
+        values = self.section(k.VALUES).reshape(-1, 3).tolist()
+        out = [math.dist(values[row.a], values[row.b]) for row in self.rows]
         for n in self.layout.others:
             row = self.rows[n]
-            apart = (
-                float(values[row.a] @ values[row.b])
-                if row.kind == k.PERPENDICULAR
-                else math.hypot(*out[n]) - row.distance_m
-            )
-            out[n] = apart, 0.0, 0.0
+            if row.kind == k.PERPENDICULAR:
+                out[n] = abs(sum(map(operator.mul, values[row.a], values[row.b])))
+            else:
+                out[n] = abs(out[n] - row.distance_m)
         return out
 
 

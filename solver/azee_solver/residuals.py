@@ -44,9 +44,10 @@ class Residuals:
     runs: Mapping[int, tuple[int, int]]
     undefined: frozenset[int]
 
-    def ratios(self, gaps: Array, demands: Mapping[int, Demand], tolerance: Tolerance) -> Ratios:
-        """How far each demand is from being met, in tolerances, from the gaps of its rows."""
-        lengths = [math.sqrt(x * x + y * y + z * z) for x, y, z in gaps.tolist()]
+    def ratios(
+        self, lengths: Sequence[float], demands: Mapping[int, Demand], tolerance: Tolerance
+    ) -> Ratios:
+        """How far each demand is from being met, in tolerances, from how far its rows are."""
         out = {}
         for i, (start, stop) in self.runs.items():
             constraint = demands[i].constraint

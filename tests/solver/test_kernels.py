@@ -282,7 +282,7 @@ def test_a_miss_by_the_tolerance_costs_one(constraint: Constraint) -> None:
     residuals = lower(case.tape, asked, tolerance, {})
     program = case.program(list(residuals.rows))
     value = program(case.q, np.empty(0))
-    ratio = residuals.ratios(program.gaps(), asked, tolerance)[0]
+    ratio = residuals.ratios(program.lengths(), asked, tolerance)[0]
     assert ratio == pytest.approx(1.0, rel=1e-9)
     if isinstance(constraint, Place):
         assert value == pytest.approx(1.0, rel=1e-9)

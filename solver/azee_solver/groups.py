@@ -40,7 +40,8 @@ def grouped(
     Where dependencies leave a choice, trunk and head come first, then hands before arms, so that
     the arms keep the hands, as they will be, out of the body. A head that nothing else turns is
     levelled wherever the trunk moves. Digits that are bent against their own hands are one group:
-    each is a small problem, and laying out a problem takes longer than to solve it.
+    each is a small problem, and laying out a problem takes longer than to solve it. An arm that
+    hangs on one that the trunk helps is solved with it: the trunk must suit both.
 
     Args: fixed: coordinates that nothing may move.
     """

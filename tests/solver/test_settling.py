@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -11,8 +12,13 @@ from numpy.typing import NDArray
 from tree_sign import NRM, UP, S, W, along, demands, tree
 
 from azee_rig.rig import Rig
+from azee_solver.anatomy import Part
+from azee_solver.attempt import _Attempt
+from azee_solver.body import Body
 from azee_solver.constraint import Constraint, Orient, Place
+from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Bone, Opp, Side, Site, WorldPoint
+from azee_solver.options import SolveOptions
 from azee_solver.report import SolveReport
 from azee_solver.result import Result, is_again
 from azee_solver.settling import PULL, giving_way
@@ -123,3 +129,32 @@ def test_what_excludes_itself_in_one_hand_does_not_disturb_the_other(signer: Rig
     report = run(signer, *clash, along(NRM, Bone("palm", W), UP))
     assert [c.met for c in report.constraints] == [True, False, True]
     assert report.constraints[1].reason == "conflicts with `nrm of palm_R along up`"
+
+
+def test_an_arm_that_waits_for_the_trunk_is_not_searched_for_alone(signer: Rig) -> None:
+    """Alone against a trunk that another arm has bent it takes a hundred evaluations, in vain."""
+    report = run(signer, *(d.constraint for d in tree()))
+    assert all(c.met for c in report.constraints)
+    assert report.evaluations < 170
+
+
+def test_what_overlaps_only_by_a_margin_will_do(signer: Rig) -> None:
+    """Reports leave margins out, and a search for what nobody asks for may take long."""
+    idle = np.array(signer.coordinates.idle)
+    v = signer.coordinates.names.index("arm_R.abduction")
+    evaluator, options = Evaluator(signer, Side.RIGHT), SolveOptions()
+    place = Place(Site("H_BACK", Side.STRONG), WorldPoint(0.0, 1.0, 0.3))
+    body = Body(signer, evaluator, idle, {}, options, [place])
+    arm = body.anatomy.of(Part.ARM)
+    attempt = _Attempt(body, dict(enumerate(demands(place))), idle, arm, frozenset(), {})
+    tolerated_m, seen = options.overlap_m, set()
+    for angle in np.radians(np.arange(12.0, -16.0, -0.25)):
+        q = idle.copy()
+        q[v] = angle
+        found = attempt._measure(q[attempt.program.free])
+        assert not attempt._will_do(found)  # the hand is not where it should be
+        met = replace(found, ratios={0: 0.5})
+        deepest = max((o.depth_m for o in body.obstacles.overlaps(q)), default=0.0)
+        assert attempt._will_do(met) == (deepest <= tolerated_m)
+        seen.add((found.overlap_m > tolerated_m, deepest > tolerated_m))
+    assert seen == {(False, False), (True, False), (True, True)}

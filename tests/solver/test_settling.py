@@ -138,23 +138,43 @@ def test_an_arm_that_waits_for_the_trunk_is_not_searched_for_alone(signer: Rig) 
     assert report.evaluations < 170
 
 
-def test_what_overlaps_only_by_a_margin_will_do(signer: Rig) -> None:
+@pytest.mark.parametrize(
+    ("bent", "turned", "degrees", "ends"),
+    [
+        # The arm into the trunk, from which it keeps a margin.
+        ({}, ("arm_R.abduction",), (12.0, -16.0), {(False, False), (True, False), (True, True)}),
+        # Hand into hand, which keep none.
+        (
+            {"f_arm_L.flexion": 90.0, "f_arm_R.flexion": 90.0},
+            ("arm_L.rotation", "arm_R.rotation"),
+            (20.0, 80.0),
+            {(False, False), (True, True)},
+        ),
+    ],
+)
+def test_what_overlaps_only_by_a_margin_will_do(
+    signer: Rig,
+    bent: dict[str, float],
+    turned: tuple[str, ...],
+    degrees: tuple[float, float],
+    ends: set[tuple[bool, bool]],
+) -> None:
     """Reports leave margins out, and a search for what nobody asks for may take long."""
-    idle = np.array(signer.coordinates.idle)
-    v = signer.coordinates.names.index("arm_R.abduction")
+    names, idle = signer.coordinates.names, np.array(signer.coordinates.idle)
+    idle[[names.index(name) for name in bent]] = np.radians(list(bent.values()))
     evaluator, options = Evaluator(signer, Side.RIGHT), SolveOptions()
     place = Place(Site("H_BACK", Side.STRONG), WorldPoint(0.0, 1.0, 0.3))
     body = Body(signer, evaluator, idle, {}, options, [place])
     arm = body.anatomy.of(Part.ARM)
     attempt = _Attempt(body, dict(enumerate(demands(place))), idle, arm, frozenset(), {})
     tolerated_m, seen = options.overlap_m, set()
-    for angle in np.radians(np.arange(12.0, -16.0, -0.25)):
+    for angle in np.radians(np.linspace(*degrees, 200)):
         q = idle.copy()
-        q[v] = angle
+        q[[names.index(name) for name in turned]] = angle
         found = attempt._measure(q[attempt.program.free])
         assert not attempt._will_do(found)  # the hand is not where it should be
         met = replace(found, ratios={0: 0.5})
         deepest = max((o.depth_m for o in body.obstacles.overlaps(q)), default=0.0)
         assert attempt._will_do(met) == (deepest <= tolerated_m)
         seen.add((found.overlap_m > tolerated_m, deepest > tolerated_m))
-    assert seen == {(False, False), (True, False), (True, True)}
+    assert seen == ends

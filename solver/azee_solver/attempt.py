@@ -40,7 +40,7 @@ AGAIN = 4
 more descents end there, the less likely is it that there is anything better."""
 RETURNS, CLEAR_RETURNS = 9, 3
 """So many descents that come back to the same end, with the body and through it, end the search;
-where nothing is missed and only a little overlap is left, so many."""
+so many where nothing is missed and only overlap is left."""
 DEEP = 2.0
 """Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
 FIRM = 4.0
@@ -191,10 +191,9 @@ class _Attempt:
                 out = self.press(through).q[self.program.free]
             for x in (start, out):
                 result = self._polished(self.press(x))
-                if is_again(merit(result, options), merit(best, options)):
-                    returned += 1 if best.lost() else RETURNS // CLEAR_RETURNS
+                returned += is_again(merit(result, options), merit(best, options))
                 best = min(best, result, key=lambda r: merit(r, options))
-                if (not best.lost() and not excess(best, options)) or returned >= RETURNS:
+                if returned >= (RETURNS if best.lost() else CLEAR_RETURNS) or self._will_do(best):
                     return best
         return best
 

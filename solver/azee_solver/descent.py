@@ -18,7 +18,7 @@ from azee_solver.program import Program
 
 Array = NDArray[np.float64]
 
-SOFT = 0.003
+SOFT = 0.002
 """Part of their price that misses and overlaps cost at first."""
 
 

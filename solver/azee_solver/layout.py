@@ -148,6 +148,11 @@ class Layout:
         return block
 
     @cached_property
+    def compared(self) -> list[list[int]]:
+        """Entries that each residual compares."""
+        return [row[1:] for row in self.rows.tolist()]
+
+    @cached_property
     def others(self) -> list[int]:
         """Residuals that are no differences of their entries."""
         return [n for n, kind in enumerate(self.rows[:, 0].tolist()) if kind != k.MEET]

@@ -167,8 +167,8 @@ def c_interface() -> ctypes.CDLL | None:
 class Compiled:
     """Compiled code that NLopt can call, the problem it works on, and NLopt's objects for both.
 
-    Making an optimiser takes as long as ten evaluations, so each is made once and kept for all
-    descents on the problem.
+    Making an optimiser takes as long as some evaluations, so each is made once and kept for all
+    descents on the problem: the first algorithm's at once, others if ever it gives up.
     """
 
     def __init__(self, function: int, block: int, lower: Array, upper: Array, best: Array) -> None:
@@ -184,7 +184,11 @@ class Compiled:
         self._at, self._value = address(self._x), ctypes.c_double()
         self._found = ctypes.byref(self._value)
         self._optimisers: dict[int, int] = {}
+        self._ends: dict[int, tuple[float, int]] = {}
         self._destroy: Callable[[int], object] = int
+        library = c_interface()
+        if library is not None:
+            self._optimiser(library, ALGORITHMS[0])
 
     def __del__(self) -> None:
         for optimiser in self._optimisers.values():
@@ -217,8 +221,10 @@ class Compiled:
         best[0], best[1:] = math.inf, first
         for algorithm in ALGORITHMS:
             optimiser = self._optimiser(library, algorithm)
-            library.nlopt_set_ftol_rel(optimiser, tolerance)
-            library.nlopt_set_maxeval(optimiser, max_evaluations)
+            if self._ends.get(algorithm) != (tolerance, max_evaluations):
+                self._ends[algorithm] = tolerance, max_evaluations
+                library.nlopt_set_ftol_rel(optimiser, tolerance)
+                library.nlopt_set_maxeval(optimiser, max_evaluations)
             self._x[:] = first
             result = library.nlopt_optimize(optimiser, self._at, self._found)
             if result == OUT_OF_MEMORY:

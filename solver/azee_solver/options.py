@@ -33,7 +33,7 @@ class SolveOptions:
     comfort: float = 3.0
     overlap: float = 0.25e6
     overlap_m: float = 3e-3
-    approach_evaluations: int = 6
+    approach_evaluations: int = 4
     max_evaluations: int = 600
     descent_tolerance: float = 1e-2
     polish_rounds: int = 20

@@ -161,14 +161,14 @@ class Program:
         return found.x
 
     def polish(self, x: Array, *, rounds: int, tolerance: float, going_on: bool = False) -> Array:
-        """Return where damped Gauss-Newton steps lead from a point (n,), inside the bounds.
+        """Return where damped Gauss-Newton steps lead from a point (n,) inside the bounds.
 
         Args: rounds: how many at most. tolerance: relative gain that ends it. going_on: x is
             where the last call has led: steps are as bold as they were there.
         """
         if not going_on:
             self._damping[0] = k.FIRST_DAMPING
-        x.clip(self.lower, self.upper, out=self._at)
+        self._at[:] = x
         self._tolerance[0] = tolerance
         self._rounds[0] = rounds
         self._evaluated(self._spare_address)
@@ -182,7 +182,7 @@ class Program:
     def lengths(self) -> list[float]:
         """Return how far each row was from being met at the last x: metres, chords or cosines."""
         values = self.section(k.VALUES).reshape(-1, 3).tolist()
-        out = [math.dist(values[row.a], values[row.b]) for row in self.rows]
+        out = [math.dist(values[a], values[b]) for a, b in self.layout.compared]
         for n in self.layout.others:
             row = self.rows[n]
             if row.kind == k.PERPENDICULAR:

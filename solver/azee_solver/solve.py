@@ -44,7 +44,7 @@ DODGED_M = 0.02
 """Deeper overlaps than a finger is thick are none that fingers get out of."""
 LEAP_RAD = math.radians(1.5)
 """Along a movement, where a coordinate changes by more than this, more of the body may share it."""
-AGREED = 2
+AGREED = 3
 """So many other descents must end where the best one does to tell that nothing meets all."""
 BEGUN_RAD = math.radians(1.0)
 """A coordinate farther than this from the reference has been taken into use by an earlier step."""
@@ -113,6 +113,8 @@ class _Moment:
         """Those that gave way to others even there, and factors of their weights."""
         self.hopeless: frozenset[int] = frozenset()
         """Those that were missed even there."""
+        self.ghosts: list[Array] = []
+        """Postures (V,) in which a ghost met all it was asked for: good ones to start from."""
 
     # Solving ----------------------------------------------------------------------------------
 
@@ -190,6 +192,7 @@ class _Moment:
             last = self._is_last(group)
             if result is None or (thorough and not last and not self._is_well(result)):
                 first = [self.start] if before is None else [before.q, self.start]
+                first += self.ghosts
                 further = (thorough or last) and not self._is_in_vain(group, before)
                 result = self._together(group, q, unsettled, first, thorough=further)
             if settle:
@@ -322,6 +325,8 @@ class _Moment:
             ease, result = giving_way(result, {}, again, lambda i: self.demands[i].order)
             self.given_up |= ease
             self.hopeless |= result.lost()
+        elif not result.lost():
+            self.ghosts.append(result.q)
         self.body.evaluations += ghost.evaluations
 
     def _demands_of(self, group: Group) -> dict[int, Demand]:

@@ -200,7 +200,8 @@ def test_with_the_trunk_free_what_depends_on_each_other_is_solved_together() -> 
 def test_an_arm_that_hangs_on_one_with_the_trunk_is_solved_with_it() -> None:
     problems = build(tree())
     trunk_for_the_weak_hand = [Reach.TRUNK, *[Reach.OWN] * (len(problems) - 1)]
-    assert problems[1].needs(problems[0]) and not problems[0].needs(problems[1])
+    assert problems[1].needs(problems[0])
+    assert not problems[0].needs(problems[1])
     groups = grouped(problems, trunk_for_the_weak_hand, BODY)
     arm = next(g for g in groups if 0 in g.problems)
     assert 1 in arm.problems

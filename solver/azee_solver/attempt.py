@@ -166,7 +166,7 @@ class _Attempt:
                 in_vain += BLOCKED if excess(result, options) and not thorough else 0
             if best is None or found < merit(best, options):
                 best = result
-            if in_vain >= patience or (again and self._will_do(best)):
+            if in_vain >= patience or ((again or thorough) and self._will_do(best)):
                 break
         assert best is not None
         return replace(best, again=returns)

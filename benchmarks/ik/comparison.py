@@ -163,15 +163,24 @@ def compared(
         yield rows
 
 
-def behind_best(rows: Sequence[Row]) -> dict[str, float]:
+def behind_best(rows: Sequence[Row], clear_m: float = math.inf) -> dict[str, float]:
     """How far each method's worst answer stays behind the best that any has, metres.
 
-    For problems that cannot be solved: the nearest posture is what is asked.
+    For problems that cannot be solved: the nearest posture is what is asked. Args: clear_m: count
+    as answers only those that leave no capsules deeper in each other.
     """
-    best = [min(misses, key=lambda m: m.length_m) for misses in _by_problem(rows)]
+    best = [
+        min((m.length_m for m, clear in zip(misses, clears, strict=True) if clear), default=None)
+        for misses, clears in zip(_by_problem(rows), _clear(rows, clear_m), strict=True)
+    ]
     return {
         r.method: max(
-            mine.length_m - other.length_m for mine, other in zip(r.residuals, best, strict=True)
+            (
+                mine.length_m - other
+                for mine, other in zip(r.residuals, best, strict=True)
+                if other is not None
+            ),
+            default=0.0,
         )
         for r in rows
     }
@@ -182,12 +191,9 @@ def of_solvable(rows: Sequence[Row], clear_m: float = math.inf) -> dict[str, tup
 
     Args: clear_m: count as solved only what leaves no capsules deeper in each other.
     """
-    apart = [
-        [depth <= clear_m for depth in row.overlaps_m or [0.0] * len(row.seconds)] for row in rows
-    ]
     solvable = [
         any(miss.within(TIGHT) and clear for miss, clear in zip(misses, clears, strict=True))
-        for misses, clears in zip(_by_problem(rows), zip(*apart, strict=True), strict=True)
+        for misses, clears in zip(_by_problem(rows), _clear(rows, clear_m), strict=True)
     ]
     return {
         r.method: (
@@ -200,3 +206,11 @@ def of_solvable(rows: Sequence[Row], clear_m: float = math.inf) -> dict[str, tup
 
 def _by_problem(rows: Sequence[Row]) -> list[tuple[Miss, ...]]:
     return list(zip(*(r.residuals for r in rows), strict=True))
+
+
+def _clear(rows: Sequence[Row], clear_m: float) -> list[tuple[bool, ...]]:
+    """Whether the answers to each problem leave no capsules deeper in each other."""
+    clear = [
+        [depth <= clear_m for depth in row.overlaps_m or [0.0] * len(row.seconds)] for row in rows
+    ]
+    return list(zip(*clear, strict=True))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -70,11 +71,10 @@ def goals_of(classes: Sequence[Sequence[Row]]) -> list[Goal]:
                 what = f"{where}: of what any method solves outside the body, {FULL}"
                 goals.append(Goal(what, 100 * met / of, "%", at_least=98))
         if kind == "unreachable":
-            behind = behind_best(rows)
-            goals += [
-                Goal(f"{where}: behind the best, {m}", 1000 * behind[m], "mm", at_most=0.5)
-                for m in (APART,)
-            ]
+            for m, clear_m in ((APART, math.inf), (FULL, CLEAR_M)):
+                outside = " outside the body" if m == FULL else ""
+                what = f"{where}: behind the best{outside}, {m}"
+                goals.append(Goal(what, 1000 * behind_best(rows, clear_m)[m], "mm", at_most=0.5))
         excess = max(by_method[name].excess_rad for name in (FULL, APART))
         goals.append(Goal(f"{where}: beyond limits, ours", excess, "rad", at_most=0.0))
         if ITASC in by_method:

@@ -15,7 +15,7 @@ from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from benchmarks import continuity, frames, solver_bench
 from benchmarks.ik.armature import bare_armature, pinned
-from benchmarks.ik.comparison import behind_best, compared, of_solvable, row
+from benchmarks.ik.comparison import Miss, Row, behind_best, compared, of_solvable, row
 from benchmarks.ik.elsewhere import Environment, NotThere, ordered_steps
 from benchmarks.ik.goals import REACHABLE, Goal
 from benchmarks.ik.levenberg import Flat
@@ -141,6 +141,27 @@ def test_an_environment_that_cannot_be_made_says_so(monkeypatch: pytest.MonkeyPa
     assert not nowhere.is_ready
     with pytest.raises(NotThere, match="azee-nothing==0 cannot be installed: ERROR: no matching"):
         nowhere.prepare()
+
+
+def made(method: str, *answers: tuple[float, float]) -> Row:
+    """A row of answers by what they miss and how deep they overlap, millimetres."""
+    misses = tuple(Miss(n, 1e-3 * miss, 0.0) for n, (miss, _) in enumerate(answers))
+    nothing = (0,) * len(answers)
+    depths = tuple(1e-3 * depth for _, depth in answers)
+    return Row("signer", "unreachable", method, nothing, nothing, misses, depths, 0.0, ())
+
+
+def test_only_answers_outside_the_body_are_compared_with_one_that_stays_there() -> None:
+    rows = [
+        made("through", (90.0, 40.0), (0.2, 40.0), (0.2, 0.0)),
+        made("around", (95.0, 1.0), (8.0, 0.0), (0.4, 0.0)),
+        made("beside", (94.7, 2.0), (8.0, 9.0), (5.0, 0.0)),
+    ]
+    assert behind_best(rows)["around"] == pytest.approx(7.8e-3)
+    assert behind_best(rows, 3e-3)["around"] == pytest.approx(0.3e-3)
+    # Of the second problem no answer that counts meets anything.
+    assert of_solvable(rows)["around"] == (1, 2)
+    assert of_solvable(rows, 3e-3)["around"] == (1, 1)
 
 
 def test_a_goal_knows_whether_it_is_kept() -> None:

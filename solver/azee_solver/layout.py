@@ -125,7 +125,7 @@ class Layout:
             k.SLOPES: 3 * entries * n,
             k.HESSIAN: n * n,
             k.FACTOR: n * (n + 1),
-            k.VECTORS: 5 * n,
+            k.VECTORS: 7 * n,
         }
         at = k.SECTIONS_END + 1
         self.sections: dict[int, slice] = {}

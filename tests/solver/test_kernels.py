@@ -54,6 +54,7 @@ from azee_solver.geometry import (
     VSum,
     VTranslate,
 )
+from azee_solver.layout import Layout
 from azee_solver.program import Cost, Program, Row
 from azee_solver.residuals import Tolerance, lower
 from azee_solver.tape import Tape
@@ -390,3 +391,28 @@ def test_polishing_a_single_coordinate_is_newton_s_method() -> None:
     program = case.program([], keep=2.0)
     x = program.polish(np.array([0.4]), rounds=10, tolerance=0.0)
     assert x[0] == pytest.approx(case.rig.coordinates.idle[program.free[0]], abs=1e-9)
+
+
+@pytest.mark.parametrize("free", [[], [3], None], ids=["nothing", "one", "everything"])
+def test_kernels_write_nowhere_but_into_their_block(
+    free: list[int] | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With nothing to move, matrices have no first row: a loop over it would end in the heap."""
+    untouched, blocks = 4242, []
+    lay_out = Layout.block
+
+    def padded(layout: Layout) -> NDArray[np.int64]:
+        whole = np.full(layout.size + 64, untouched)
+        whole[: layout.size] = lay_out(layout)
+        blocks.append(whole)
+        return whole[: layout.size]
+
+    monkeypatch.setattr(Layout, "block", padded)
+    case = Case(5, free)
+    program = case.program([], keep=2.0, comfort=1.0)
+    x = case.q[program.free]
+    program(x, np.empty(len(x)))
+    x = program.descend(x, max_evaluations=10, tolerance=1e-6)
+    program.polish(x, rounds=10, tolerance=0.0)
+    (block,) = blocks
+    assert np.all(block[-64:] == untouched)

@@ -33,9 +33,9 @@ def improve(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
     n = x.shape[0]
     hessian = matrix(reals, ints, HESSIAN, n, n)
     factor = matrix(reals, ints, FACTOR, n, n + 1)
-    vectors = matrix(reals, ints, VECTORS, 4, n)
-    row, model, step, trial = vectors[0], vectors[1], vectors[2], vectors[3]
-    free = ints[ints[VECTORS] + 4 * n : ints[VECTORS] + 5 * n]
+    vectors = matrix(reals, ints, VECTORS, 6, n)
+    model, step, trial = vectors[3], vectors[4], vectors[5]
+    free = ints[ints[VECTORS] + 6 * n : ints[VECTORS] + 7 * n]
     bounds = matrix(reals, ints, BOUNDS, 2, n)
     rounds, tolerance = ints[ints[ROUNDS]], reals[ints[TOLERANCE]]
     damping, growth, foreseen, value = reals[ints[DAMPING]], 2.0, 0.0, np.inf
@@ -54,7 +54,7 @@ def improve(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
                 damping *= max(1.0 / 3.0, 1.0 - (2.0 * gain / foreseen - 1.0) ** 3)
                 growth = 2.0
             if not done:
-                gauss_newton(x, contacts, row, model, hessian, ints, reals)
+                gauss_newton(x, contacts, vectors[:3], model, hessian, ints, reals)
         else:
             damping *= growth
             growth *= 2.0

@@ -41,14 +41,29 @@ def _add_square(row, error, weight, hessian, gradient):  # type: ignore[no-untyp
 
 
 @njit(**INNER)
-def gauss_newton(x, contacts, row, gradient, hessian, ints, reals):  # type: ignore[no-untyped-def]
-    """Gauss-Newton model of f / 2 about the point that was evaluated last."""
+def _add_squares(three, errors, weight, hessian, gradient):  # type: ignore[no-untyped-def]
+    """Do that for three rows at once, (3, n): one loop over columns is quicker than three."""
+    for i in range(three.shape[1]):
+        a, b, c = weight * three[0, i], weight * three[1, i], weight * three[2, i]
+        if a != 0.0 or b != 0.0 or c != 0.0:
+            gradient[i] += a * errors[0] + b * errors[1] + c * errors[2]
+            for j in along(i, three.shape[1]):
+                hessian[i, j] += a * three[0, j] + b * three[1, j] + c * three[2, j]
+
+
+@njit(**INNER)
+def gauss_newton(x, contacts, three, gradient, hessian, ints, reals):  # type: ignore[no-untyped-def]
+    """Gauss-Newton model of f / 2 about the point that was evaluated last.
+
+    Args: three: (3, n) room to work in.
+    """
     n, entries = x.shape[0], (ints[CODES + 1] - ints[CODES]) // 4
     codes = matrix(ints, ints, CODES, entries, 4)
     numbers = matrix(reals, ints, NUMBERS, entries, 5)
     values = matrix(reals, ints, VALUES, entries, 3)
     slopes = stack(reals, ints, SLOPES, entries, 3, n)
     differentiate(codes, numbers, values, slopes, ints, reals)
+    row = three[0]
     gradient[:] = 0.0
     hessian[:] = 0.0
     rows, row_numbers = part(ints, ints, ROWS), part(reals, ints, ROW_NUMBERS)
@@ -59,8 +74,13 @@ def gauss_newton(x, contacts, row, gradient, hessian, ints, reals):  # type: ign
         if kind == MEET:
             for i in range(3):
                 for v in range(n):
-                    row[v] = slopes[a, i, v] - slopes[b, i, v]
-                _add_square(row, values[a, i] - values[b, i], weight, hessian, gradient)
+                    three[i, v] = slopes[a, i, v] - slopes[b, i, v]
+            errors = (
+                values[a, 0] - values[b, 0],
+                values[a, 1] - values[b, 1],
+                values[a, 2] - values[b, 2],
+            )
+            _add_squares(three, errors, weight, hessian, gradient)
             continue
         row[:] = 0.0
         error = 0.0

@@ -11,13 +11,16 @@ from azee_solver.kernels.sections import along
 
 
 @njit(**INNER)
-def _newton_step(free, count, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
-    """Solve (H + damping · diag H) p = −g for some coordinates; `step` holds the others' moves."""
+def _newton_step(free, count, moved, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
+    """Solve (H + damping · diag H) p = −g for some coordinates; `step` holds the others' moves.
+
+    Args: moved: whether any of the others moves.
+    """
     n = gradient.shape[0]
     for r in range(count):
         i = free[r]
         rhs = -gradient[i]
-        for j in range(n):
+        for j in range(n if moved else 0):
             if step[j] != 0.0:
                 rhs -= (hessian[i, j] if j >= i else hessian[j, i]) * step[j]
         factor[r, count] = rhs
@@ -53,10 +56,11 @@ def bounded_step(x, bounds, free, damping, gradient, hessian, factor, step):  # 
         if not stuck:
             free[count] = k
             count += 1
+    moved = False
     while count > 0:
         for r in range(count):
             step[free[r]] = 0.0
-        _newton_step(free, count, damping, gradient, hessian, factor, step)
+        _newton_step(free, count, moved, damping, gradient, hessian, factor, step)
         left = 0
         for r in range(count):
             k = free[r]
@@ -69,12 +73,21 @@ def bounded_step(x, bounds, free, damping, gradient, hessian, factor, step):  # 
                 left += 1
         if left == count:
             break
-        count = left
-    foreseen = 0.0
-    for i in range(x.shape[0]):
+        count, moved = left, True
+    return _foreseen(gradient, hessian, factor[0], step)
+
+
+@njit(**INNER)
+def _foreseen(gradient, hessian, bent, step):  # type: ignore[no-untyped-def]
+    """Return what a step gains by the model, −2 gᵀp − pᵀ H p; `bent`: room to work in, (≥ n,)."""
+    n = step.shape[0]
+    bent[:n] = 0.0
+    for i in range(n):
         if step[i] != 0.0:
-            bent = 0.5 * hessian[i, i] * step[i]
-            for j in range(i + 1, x.shape[0]):
-                bent += hessian[i, j] * step[j]
-            foreseen -= 2.0 * step[i] * (gradient[i] + bent)
-    return foreseen
+            bent[i] += 0.5 * hessian[i, i] * step[i]
+            for j in along(i + 1, n):
+                bent[j] += hessian[i, j] * step[i]
+    gain = 0.0
+    for i in range(n):
+        gain -= 2.0 * step[i] * (gradient[i] + bent[i])
+    return gain

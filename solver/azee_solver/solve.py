@@ -18,12 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver.anatomy import Part
-from azee_solver.attempt import POLISH, solve_group
+from azee_solver.attempt import solve_group
 from azee_solver.body import Body
 from azee_solver.constraint import Place
 from azee_solver.demand import Demand
 from azee_solver.evaluate import evaluator
 from azee_solver.geometry import Side
+from azee_solver.ghost import Ghost
 from azee_solver.groups import Group, grouped
 from azee_solver.options import SolveOptions
 from azee_solver.problems import Problem, ProblemBuilder, Reach
@@ -44,8 +45,6 @@ DODGED_M = 0.02
 """Deeper overlaps than a finger is thick are none that fingers get out of."""
 LEAP_RAD = math.radians(1.5)
 """Along a movement, where a coordinate changes by more than this, more of the body may share it."""
-AGREED = 3
-"""So many other descents must end where the best one does to tell that nothing meets all."""
 BEGUN_RAD = math.radians(1.0)
 """A coordinate farther than this from the reference has been taken into use by an earlier step."""
 
@@ -107,14 +106,7 @@ class _Moment:
         self.footprints = builder.footprints
         self.spent_s: dict[tuple[int, ...], float] = {}
         """Time that groups have taken, by their problems."""
-        self.looked_into: frozenset[int] = frozenset()
-        """Constraints that were missed, so that a ghost has been asked whether they can be met."""
-        self.given_up: dict[int, float] = {}
-        """Those that gave way to others even there, and factors of their weights."""
-        self.hopeless: frozenset[int] = frozenset()
-        """Those that were missed even there."""
-        self.ghosts: list[Array] = []
-        """Postures (V,) in which a ghost met all it was asked for: good ones to start from."""
+        self.ghost = Ghost(self.body, demands, builder.footprints)
 
     # Solving ----------------------------------------------------------------------------------
 
@@ -128,11 +120,11 @@ class _Moment:
         reach = [self._begun(problem) for problem in self.problems]
         tried = [(reach, self._in_order(reach, None))]
         while wider := self._widened(*tried[-1]):
-            self._give_up(tried[-1][1], in_the_way=False)
+            self._ask_a_ghost(tried[-1][1], in_the_way=False)
             tried.append((wider, self._in_order(wider, tried[-1][1])))
         reach, state = tried[-1]
         if not all(self._is_well(result) for result in state.results):
-            self._give_up(state, in_the_way=True)
+            self._ask_a_ghost(state, in_the_way=True)
             tried[-1] = reach, self._in_order(reach, state, thorough=True)
         met = [state for _, state in tried if not state.missed()]
         if met and self.options.inertia:
@@ -192,7 +184,7 @@ class _Moment:
             last = self._is_last(group)
             if result is None or (thorough and not last and not self._is_well(result)):
                 first = [self.start] if before is None else [before.q, self.start]
-                first += self.ghosts
+                first += self.ghost.postures
                 further = (thorough or last) and not self._is_in_vain(group, before)
                 result = self._together(group, q, unsettled, first, thorough=further)
             if settle:
@@ -211,7 +203,7 @@ class _Moment:
             return None
         for other, result in zip(before.groups, before.results, strict=True):
             if (other.problems, other.free) == (group.problems, group.free):
-                eased = self.given_up.keys() & self._demands_of(group).keys()
+                eased = self.ghost.given_up.keys() & self._demands_of(group).keys()
                 return result if result.eased >= eased else None
         return None
 
@@ -232,7 +224,7 @@ class _Moment:
             q,
             group.free,
             unsettled=unsettled,
-            ease={i: ease for i, ease in self.given_up.items() if i in demands},
+            ease={i: ease for i, ease in self.ghost.given_up.items() if i in demands},
             first=first,
             thorough=thorough,
             to_the_end=False,
@@ -244,7 +236,7 @@ class _Moment:
             return False
         demands = self._demands_of(group).keys()
         lost = frozenset().union(*(r.lost() for r in before.results)) & demands
-        return bool(lost) and lost <= self.hopeless
+        return bool(lost) and lost <= self.ghost.hopeless
 
     def _is_last(self, group: Group) -> bool:
         """Whether nothing more can be given to a group."""
@@ -275,17 +267,14 @@ class _Moment:
             )
 
         demands = self._demands_of(group)
-        given = {i: ease for i, ease in self.given_up.items() if i in demands}
+        given = {i: ease for i, ease in self.ghost.given_up.items() if i in demands}
         ease, settled = giving_way(result, given, again, lambda i: self.demands[i].order)
         if settled.lost() or ease != given:
             settled = again(ease, settled.q, finish=True)
         return settled
 
-    def _give_up(self, state: State, *, in_the_way: bool) -> None:
-        """Find out what cannot be met even by a ghost at ease in any posture.
-
-        Looking on for its sake would be in vain. A near miss is no proof, nor are ends that differ
-        from start to start.
+    def _ask_a_ghost(self, state: State, *, in_the_way: bool) -> None:
+        """Find out what of the misses could be met if nothing were in the way.
 
         Args: in_the_way: ask too where it may well be that the body is in the way.
         """
@@ -294,40 +283,10 @@ class _Moment:
             for group, result in zip(state.groups, state.results, strict=True)
             if result.lost() and (in_the_way or result.overlap_m < DODGED_M)
         ]
-        lost = frozenset().union(*(result.lost() for _, result in asked))
-        if lost <= self.looked_into:
-            return
-        self.looked_into |= lost
-        demands: dict[int, Demand] = {}
+        among: dict[int, Demand] = {}
         for group, _ in asked:
-            demands |= self._demands_of(group)
-        free = frozenset().union(*(self.footprints[i].affected(self.body.anatomy) for i in demands))
-        free -= self.options.fixed
-        if not free:
-            return
-        ghost = self.body.ghost(state.q)
-        ghost.options = replace(ghost.options, finish_work=0)
-
-        def again(ease: Mapping[int, float], begin: Array) -> Result:
-            return solve_group(
-                ghost,
-                demands,
-                state.q,
-                free,
-                ease=ease,
-                first=[begin],
-                thorough=False,
-                to_the_end=False,
-            )
-
-        result = again({}, state.q)
-        if result.worst() > POLISH and result.again >= AGREED:
-            ease, result = giving_way(result, {}, again, lambda i: self.demands[i].order)
-            self.given_up |= ease
-            self.hopeless |= result.lost()
-        elif not result.lost():
-            self.ghosts.append(result.q)
-        self.body.evaluations += ghost.evaluations
+            among |= self._demands_of(group)
+        self.ghost.ask(frozenset().union(*(r.lost() for _, r in asked)), among, state.q)
 
     def _demands_of(self, group: Group) -> dict[int, Demand]:
         indices = sorted(i for p in group.problems for i in self.problems[p].demands)

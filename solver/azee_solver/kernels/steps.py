@@ -11,8 +11,18 @@ from azee_solver.kernels.sections import along
 
 
 @njit(**INNER)
+def _pivot(factor, r, count):  # type: ignore[no-untyped-def]
+    """Scale a row of a Cholesky factor by the root of its first number."""
+    scale = 1.0 / math.sqrt(max(factor[r, r], 1e-300))
+    for c in along(r, count + 1):
+        factor[r, c] *= scale
+
+
+@njit(**INNER)
 def _newton_step(free, count, moved, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
     """Solve (H + damping · diag H) p = −g for some coordinates; `step` holds the others' moves.
+
+    By Cholesky's factor, two rows at a time: one loop over columns is quicker than two.
 
     Args: moved: whether any of the others moves.
     """
@@ -27,15 +37,19 @@ def _newton_step(free, count, moved, damping, gradient, hessian, factor, step): 
         for c in range(r, count):
             factor[r, c] = hessian[i, free[c]]
         factor[r, r] += damping * factor[r, r] + 1e-12
-    for r in range(count):
-        pivot = math.sqrt(max(factor[r, r], 1e-300))
-        for c in along(r, count + 1):
-            factor[r, c] /= pivot
-        for i in range(r + 1, count):
-            share = factor[r, i]
-            if share != 0.0:
+    for r in range(0, count - 1, 2):
+        _pivot(factor, r, count)
+        share = factor[r, r + 1]
+        for c in along(r + 1, count + 1):
+            factor[r + 1, c] -= share * factor[r, c]
+        _pivot(factor, r + 1, count)
+        for i in range(r + 2, count):
+            one, two = factor[r, i], factor[r + 1, i]
+            if one != 0.0 or two != 0.0:
                 for c in along(i, count + 1):
-                    factor[i, c] -= share * factor[r, c]
+                    factor[i, c] -= one * factor[r, c] + two * factor[r + 1, c]
+    if count % 2:
+        _pivot(factor, count - 1, count)
     for r in range(count - 1, -1, -1):
         solved = factor[r, count]
         for c in range(r + 1, count):

@@ -140,6 +140,8 @@ class _Attempt:
     def search(self, at_hand: Iterable[Array], thorough: bool) -> Result:
         """Return the best end of descents: the first that meets all, or when no more is gained.
 
+        One that meets all but for the margin around bodies ends the search once another ended
+        there too, or at once where no wider problem could get it clear.
         After a descent that ended where the best one did the next one goes another way about it.
         """
         options = self.body.options

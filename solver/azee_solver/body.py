@@ -66,7 +66,6 @@ class Body:
             overlap=0.0,
             overlap_m=math.inf,
             further_starts=2,
-            patience=12,
         )
         return replace(self, reference=reference, presets={}, options=options, evaluations=0)
 

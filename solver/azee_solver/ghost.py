@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver.attempt import POLISH, solve_group
+from azee_solver.attempt import AGAIN, POLISH, solve_group
 from azee_solver.body import Body
 from azee_solver.demand import Demand
 from azee_solver.footprint import Footprint
@@ -58,7 +58,8 @@ class Ghost:
         if not free:
             return
         body = self._body.ghost(q)
-        body.options = replace(body.options, finish_work=0)
+        # It looks on for as long as so many ends alike take to count.
+        body.options = replace(body.options, finish_work=0, patience=AGREED * AGAIN)
 
         def again(ease: Mapping[int, float], begin: Array) -> Result:
             return solve_group(

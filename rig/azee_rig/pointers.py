@@ -24,32 +24,32 @@ INNER: dict[str, Any] = {
 
 
 @intrinsic
-def reals_at(context, address):  # type: ignore[no-untyped-def]
+def reals_at(context, address):
     """Real numbers at an address."""
 
-    def code(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+    def code(context, builder, signature, arguments):
         return builder.inttoptr(arguments[0], ir.DoubleType().as_pointer())
 
     return types.CPointer(types.float64)(types.int64), code
 
 
 @intrinsic
-def integers_at(context, address):  # type: ignore[no-untyped-def]
+def integers_at(context, address):
     """Integers at an address."""
 
-    def code(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+    def code(context, builder, signature, arguments):
         return builder.inttoptr(arguments[0], ir.IntType(64).as_pointer())
 
     return types.CPointer(types.int64)(types.int64), code
 
 
 @njit(**INNER)
-def reals(address, shape):  # type: ignore[no-untyped-def]
+def reals(address, shape):
     """Array of reals of some shape."""
     return carray(reals_at(address), shape)  # type: ignore[call-arg]
 
 
 @njit(**INNER)
-def integers(address, shape):  # type: ignore[no-untyped-def]
+def integers(address, shape):
     """Array of integers of some shape."""
     return carray(integers_at(address), shape)  # type: ignore[call-arg]

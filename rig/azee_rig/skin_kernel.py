@@ -14,7 +14,7 @@ from azee_rig.pointers import WORDS, carray, integers, reals
 
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
-def blended(words):  # type: ignore[no-untyped-def]
+def blended(words):
     """Vertices (N, 3) moved by v' = Σ_k w_k T_k (v, 1), skipping influences without weight.
 
     Words: N, K, J, vertices (N, 3), joints (N, K), weights (N, K), transforms (J, 3, 4), and the
@@ -43,7 +43,7 @@ def blended(words):  # type: ignore[no-untyped-def]
 
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
-def smooth_normals(words):  # type: ignore[no-untyped-def]
+def smooth_normals(words):
     """Work out unit normals (N, 3), each the mean of its triangles' by area; 0 where there is none.
 
     Words: N, F, vertices (N, 3), triangles (F, 3), and the result (N, 3).
@@ -74,7 +74,7 @@ def smooth_normals(words):  # type: ignore[no-untyped-def]
 
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
-def unit_turns(words):  # type: ignore[no-untyped-def]
+def unit_turns(words):
     """Work out how one face unit turns normals: only triangles that it moves are looked at.
 
     Words: N, F, n, stamp, which no call before had; rows (n,) that move, by deltas (n, 3);

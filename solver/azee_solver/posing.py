@@ -16,7 +16,7 @@ from azee_solver.kernels.capsules import nearest
 
 
 @njit(**INNER)
-def _turn_all(  # type: ignore[no-untyped-def]
+def _turn_all(
     q, parents, offsets, zero, start, axis, scale, coordinate, positions, rotations, axes
 ):
     """Frames of all nodes, and the axes of all degrees of freedom, in the world."""
@@ -48,7 +48,7 @@ def _turn_all(  # type: ignore[no-untyped-def]
 
 
 @njit(**INNER)
-def _add_slope(  # type: ignore[no-untyped-def]
+def _add_slope(
     node, point, along, sign, column, parents, start, scale, coordinate, positions, axes, slope
 ):
     """Add how fast a point of a node moves along a direction, per coordinate above it."""
@@ -72,7 +72,7 @@ def _add_slope(  # type: ignore[no-untyped-def]
 
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
-def pose(words):  # type: ignore[no-untyped-def]
+def pose(words):
     """Pose a body many times.
 
     Words: T postures, B nodes, D degrees of freedom, V coordinates, K capsules, P pairs, n slopes;

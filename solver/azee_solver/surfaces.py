@@ -11,7 +11,7 @@ from azee_rig.pointers import WORDS, carray, reals
 
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
-def wind(words):  # type: ignore[no-untyped-def]
+def wind(words):
     """Sum of solid angles over 4π (Van Oosterom and Strackee 1983).
 
     Words: n, F, points (n, 3), triangles (F, 3, 3), and the result (n,).
@@ -46,7 +46,7 @@ def wind(words):  # type: ignore[no-untyped-def]
 
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
-def measure(words):  # type: ignore[no-untyped-def]
+def measure(words):
     """Nearest point of each triangle, by its Voronoi regions (Ericson 2005, §5.1.5).
 
     Words: n, F, points (n, 3), triangles (F, 3, 3), and the result (n,).

@@ -26,7 +26,7 @@ from azee_solver.kernels.sections import matrix, part
 
 
 @njit(**INNER)
-def nearest(ends, i, j):  # type: ignore[no-untyped-def]
+def nearest(ends, i, j):
     """Parameters of the nearest points of two capsules' axes (Ericson 2005, §5.1.9)."""
     a, b, c, d, e = 0.0, 0.0, 0.0, 0.0, 0.0
     for k in range(3):
@@ -52,7 +52,7 @@ def nearest(ends, i, j):  # type: ignore[no-untyped-def]
 
 
 @njit(**INNER)
-def _spread(balls, nodes, positions, rotations, centres):  # type: ignore[no-untyped-def]
+def _spread(balls, nodes, positions, rotations, centres):
     """Where points of nodes' frames lie, some reals per row, of which the first three are one."""
     for c in range(nodes.shape[0]):
         node = nodes[c]
@@ -66,7 +66,7 @@ def _spread(balls, nodes, positions, rotations, centres):  # type: ignore[no-unt
 
 
 @njit(**INNER)
-def touch(ints, reals, positions, rotations):  # type: ignore[no-untyped-def]
+def touch(ints, reals, positions, rotations):
     """Find the pairs of capsules that overlap; return how many, and the sum of overlap².
 
     Contacts are rows of: one capsule's node, the nearest point of its axis, the other's, the
@@ -137,7 +137,7 @@ def touch(ints, reals, positions, rotations):  # type: ignore[no-untyped-def]
 
 
 @njit(**INNER)
-def press(contacts, count, weight, forces, moments):  # type: ignore[no-untyped-def]
+def press(contacts, count, weight, forces, moments):
     """Push nodes of capsules that overlap apart, with forces and moments."""
     for n in range(count):
         contact = contacts[n]

@@ -24,7 +24,7 @@ from azee_solver.kernels.sections import matrix, part, stack
 
 
 @njit(**INNER)
-def forward(q, ints, reals):  # type: ignore[no-untyped-def]
+def forward(q, ints, reals):
     """Frames of the active nodes; those of all others stand in the block already."""
     active, parents = part(ints, ints, ACTIVE), part(ints, ints, PARENTS)
     start, axis = part(ints, ints, DOF_START), part(ints, ints, DOF_AXIS)
@@ -66,9 +66,7 @@ def forward(q, ints, reals):  # type: ignore[no-untyped-def]
 
 
 @njit(**INNER)
-def gather(  # type: ignore[no-untyped-def]
-    active, parents, start, scale, coordinate, positions, axes, forces, moments, pull_on_q
-):
+def gather(active, parents, start, scale, coordinate, positions, axes, forces, moments, pull_on_q):
     """Add up forces and moments towards the root; what each coordinate feels of them."""
     for n in range(active.shape[0] - 1, -1, -1):
         node = active[n]

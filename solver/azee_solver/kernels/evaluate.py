@@ -28,7 +28,7 @@ from azee_solver.kernels.steps import bounded_step
 
 
 @njit(**INNER, inline="always")
-def improve(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
+def improve(x, gradient, ints, reals):
     """Polish x (n,) for the block's number of rounds; return f, with its gradient if that is 0."""
     n = x.shape[0]
     hessian = matrix(reals, ints, HESSIAN, n, n)
@@ -74,7 +74,7 @@ def improve(x, gradient, ints, reals):  # type: ignore[no-untyped-def]
     cache=not KEEPS,
     error_model="numpy",
 )
-def evaluate(count, place, slope, block):  # type: ignore[no-untyped-def]
+def evaluate(count, place, slope, block):
     """Return f at x (n,) and write its gradient (n,): NLopt's `nlopt_func`.
 
     The lowest point so far is kept in the block: a method that gives up loses it. Where f is

@@ -30,7 +30,7 @@ from azee_solver.kernels.slopes import differentiate, lever
 
 
 @njit(**INNER)
-def _add_square(row, error, weight, hessian, gradient):  # type: ignore[no-untyped-def]
+def _add_square(row, error, weight, hessian, gradient):
     """Add w e² with slope `row` to the quadratic model; of the matrix only the upper triangle."""
     for i in range(row.shape[0]):
         if row[i] != 0.0:
@@ -41,7 +41,7 @@ def _add_square(row, error, weight, hessian, gradient):  # type: ignore[no-untyp
 
 
 @njit(**INNER)
-def _add_squares(three, errors, weight, hessian, gradient):  # type: ignore[no-untyped-def]
+def _add_squares(three, errors, weight, hessian, gradient):
     """Do that for three rows at once, (3, n): one loop over columns is quicker than three."""
     for i in range(three.shape[1]):
         a, b, c = weight * three[0, i], weight * three[1, i], weight * three[2, i]
@@ -52,7 +52,7 @@ def _add_squares(three, errors, weight, hessian, gradient):  # type: ignore[no-u
 
 
 @njit(**INNER)
-def gauss_newton(x, contacts, three, gradient, hessian, ints, reals):  # type: ignore[no-untyped-def]
+def gauss_newton(x, contacts, three, gradient, hessian, ints, reals):
     """Gauss-Newton model of f / 2 about the point that was evaluated last.
 
     Args: three: (3, n) room to work in.

@@ -41,7 +41,7 @@ from azee_solver.kernels.sections import matrix, part, stack
 
 
 @njit(**INNER)
-def objective(x, gradient, wanted, ints, reals):  # type: ignore[no-untyped-def]
+def objective(x, gradient, wanted, ints, reals):
     """Work out f at the free coordinates x (n,), its gradient too if wanted; count contacts."""
     q = part(reals, ints, Q)
     free, active = part(ints, ints, FREE), part(ints, ints, ACTIVE)
@@ -113,12 +113,12 @@ def objective(x, gradient, wanted, ints, reals):  # type: ignore[no-untyped-def]
 
 
 @njit(**INNER)
-def astray(x, k, leader, reference):  # type: ignore[no-untyped-def]
+def astray(x, k, leader, reference):
     """How far a coordinate is from its reference, or from what it follows."""
     return x[k] - (FOLLOWING * x[leader] if leader >= 0 else reference)
 
 
 @njit(**INNER)
-def discomfort(u):  # type: ignore[no-untyped-def]
+def discomfort(u):
     """How far into the outer part of its range a coordinate is, with its sign."""
     return u - COMFORTABLE if u > COMFORTABLE else min(u + COMFORTABLE, 0.0)

@@ -27,7 +27,7 @@ from azee_solver.kernels.sections import part
 
 
 @njit(**INNER)
-def lever(node, point, direction, factor, row, ints, reals):  # type: ignore[no-untyped-def]
+def lever(node, point, direction, factor, row, ints, reals):
     """Add to a row (n,) what coordinates do to a point of a node, along a direction."""
     parents, start = part(ints, ints, PARENTS), part(ints, ints, DOF_START)
     coordinate, scale = part(ints, ints, DOF_COORDINATE), part(reals, ints, DOF_SCALE)
@@ -50,7 +50,7 @@ def lever(node, point, direction, factor, row, ints, reals):  # type: ignore[no-
 
 
 @njit(**INNER)
-def _turned(node, value, is_point, slope, ints, reals):  # type: ignore[no-untyped-def]
+def _turned(node, value, is_point, slope, ints, reals):
     """Slopes (3, n) of a point or direction that a node carries: axis × arm for each coordinate."""
     parents, start = part(ints, ints, PARENTS), part(ints, ints, DOF_START)
     coordinate, scale = part(ints, ints, DOF_COORDINATE), part(reals, ints, DOF_SCALE)
@@ -73,13 +73,13 @@ def _turned(node, value, is_point, slope, ints, reals):  # type: ignore[no-untyp
 
 
 @njit(**INNER)
-def _add(slopes, t, i, factor, a, j):  # type: ignore[no-untyped-def]
+def _add(slopes, t, i, factor, a, j):
     for v in range(slopes.shape[2]):
         slopes[t, i, v] += factor * slopes[a, j, v]
 
 
 @njit(**INNER)
-def differentiate(codes, numbers, values, slopes, ints, reals):  # type: ignore[no-untyped-def]
+def differentiate(codes, numbers, values, slopes, ints, reals):
     """Work out derivatives (entries, 3, n) of the tape's entries by the free coordinates."""
     slopes[:] = 0.0
     for t in range(codes.shape[0]):

@@ -11,7 +11,7 @@ from azee_solver.kernels.sections import along
 
 
 @njit(**INNER)
-def _pivot(factor, r, count):  # type: ignore[no-untyped-def]
+def _pivot(factor, r, count):
     """Scale a row of a Cholesky factor by the root of its first number."""
     scale = 1.0 / math.sqrt(max(factor[r, r], 1e-300))
     for c in along(r, count + 1):
@@ -19,7 +19,7 @@ def _pivot(factor, r, count):  # type: ignore[no-untyped-def]
 
 
 @njit(**INNER)
-def _newton_step(free, count, moved, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
+def _newton_step(free, count, moved, damping, gradient, hessian, factor, step):
     """Solve (H + damping · diag H) p = −g for some coordinates; `step` holds the others' moves.
 
     By Cholesky's factor, two rows at a time: one loop over columns is quicker than two.
@@ -58,7 +58,7 @@ def _newton_step(free, count, moved, damping, gradient, hessian, factor, step): 
 
 
 @njit(**INNER)
-def bounded_step(x, bounds, free, damping, gradient, hessian, factor, step):  # type: ignore[no-untyped-def]
+def bounded_step(x, bounds, free, damping, gradient, hessian, factor, step):
     """Step towards the model's least value inside the bounds, by an active set; what it gains."""
     lower, upper = bounds[0], bounds[1]
     count = 0
@@ -92,7 +92,7 @@ def bounded_step(x, bounds, free, damping, gradient, hessian, factor, step):  # 
 
 
 @njit(**INNER)
-def _foreseen(gradient, hessian, bent, step):  # type: ignore[no-untyped-def]
+def _foreseen(gradient, hessian, bent, step):
     """Return what a step gains by the model, −2 gᵀp − pᵀ H p; `bent`: room to work in, (≥ n,)."""
     n = step.shape[0]
     bent[:n] = 0.0

@@ -6,12 +6,25 @@ import math
 
 import numpy as np
 import pytest
+from kernel_case import (
+    CREASE_W,
+    HEAD,
+    PALM_S,
+    POINTS,
+    TIP_S,
+    TIP_W,
+    UP,
+    VECTORS,
+    Case,
+    S,
+    W,
+)
 from numpy.typing import NDArray
 from stick_body import stick_body
 
 from azee_rig.chain import Frames
 from azee_rig.rig import Rig
-from azee_solver import block, nlopt_backend
+from azee_solver import block
 from azee_solver.broadphase import Collisions
 from azee_solver.collisions import segment_distance
 from azee_solver.constraint import (
@@ -27,113 +40,18 @@ from azee_solver.constraint import (
 from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import (
-    Between,
     Bone,
-    Cross,
     Dir,
     FreePoint,
-    JointPoint,
-    Moving,
-    NamedPoint,
-    Nrm,
-    Opp,
-    Out,
     Point,
-    Rotated,
-    Scale,
     Side,
-    SigningSpace,
     Site,
-    SitePoint,
-    Straight,
-    Towards,
-    Unit,
-    VDiff,
     Vec,
     Vector,
-    VSum,
-    VTranslate,
 )
-from azee_solver.layout import Layout
 from azee_solver.program import Cost, Program, Row
 from azee_solver.residuals import Tolerance, lower
 from azee_solver.tape import Tape
-
-S, W = Side.STRONG, Side.WEAK
-UP = Vec(0.0, 1.0, 0.0)
-PALM_S, PALM_W, HEAD = Bone("palm", S), Bone("palm", W), Bone("head")
-TIP_S, TIP_W = SitePoint(Site("I_TIP", S)), SitePoint(Site("I_TIP", W))
-CREASE_W = SitePoint(Site("ELi", W))
-"""A site that rides on two nodes."""
-
-VECTORS: list[Vector] = [
-    UP,
-    Out(S),
-    Dir(PALM_S),
-    Nrm(HEAD),
-    Opp(Dir(PALM_W)),
-    Unit(VSum((Dir(PALM_S), Scale(Nrm(PALM_W), 0.7), UP))),
-    VDiff(Dir(PALM_S), Nrm(HEAD)),
-    Cross(Dir(PALM_S), Dir(PALM_W)),
-    Towards(JointPoint(PALM_S), SitePoint(Site("CH"))),
-    Towards(TIP_S, TIP_W),
-    Rotated(Dir(PALM_S), VSum((Nrm(PALM_W), UP)), 0.7),
-    Rotated(Rotated(UP, Nrm(PALM_S), 0.4), Cross(Nrm(HEAD), Dir(PALM_W)), -1.9),
-]
-
-POINTS: list[Point] = [
-    FreePoint(0.1, -0.2, 0.3),
-    NamedPoint(SigningSpace.SSSP),
-    TIP_W,
-    CREASE_W,
-    JointPoint(HEAD),
-    JointPoint(Bone("back_1")),
-    VTranslate(TIP_W, Scale(Dir(PALM_W), 0.05)),
-    VTranslate(SitePoint(Site("FH")), Rotated(UP, Dir(PALM_S), 1.0)),
-    Between(TIP_S, SitePoint(Site("CH")), 0.3),
-    Moving(Straight(), TIP_W, SitePoint(Site("ST"))),
-]
-
-
-class Case:
-    """A problem on the stick body with all coordinates free, about a random posture."""
-
-    def __init__(self, seed: int, free: list[int] | None = None) -> None:
-        self.rig: Rig = stick_body()
-        limits = self.rig.coordinates
-        random = np.random.default_rng(seed)
-        self.q = limits.lower + random.uniform(0.05, 0.95, len(limits)) * (
-            limits.upper - limits.lower
-        )
-        self.free = list(range(len(limits))) if free is None else free
-        moving = np.zeros(len(self.rig.chain.names), dtype=np.bool_)
-        for node in range(len(moving)):
-            parent = self.rig.chain.parents[node]
-            run = slice(self.rig.chain.dof_start[node], self.rig.chain.dof_start[node + 1])
-            own = np.isin(self.rig.chain.dof_coordinate[run], self.free).any()
-            moving[node] = own or (parent >= 0 and moving[parent])
-        self.evaluator = Evaluator(self.rig, Side.RIGHT)
-        self.tape = Tape(self.evaluator, self.rig.chain.frames(self.q), moving)
-
-    def program(
-        self, rows: list[Row], collisions: Collisions | None = None, **cost: float
-    ) -> Program:
-        every = np.ones(len(self.q))
-        return Program(
-            self.rig,
-            self.q,
-            self.free,
-            self.tape,
-            rows,
-            collisions or Collisions.none(),
-            Cost(
-                self.rig.coordinates.idle,
-                cost.get("keep", 0.0) * every,
-                cost.get("comfort", 0.0) * every,
-                cost.get("overlap", 0.0),
-                {1: 0, 7: 3} if cost.get("keep") else {},
-            ),
-        )
 
 
 def slope(program: Program, x: NDArray[np.float64], v: int) -> float:
@@ -295,25 +213,6 @@ def test_a_miss_by_the_tolerance_costs_one(constraint: Constraint) -> None:
         assert 0.0 < value < 2.0  # two eyes
 
 
-# Broad phase, NLopt through C, polish ----------------------------------------------------------
-
-
-def everything(seed: int) -> tuple[Case, Program]:
-    """A problem with every kind of term."""
-    case = Case(seed)
-    tape, capsules = case.tape, case.rig.capsules
-    rows = [
-        Row(block.MEET, tape.site(Site("I_TIP", S)), tape.point(POINTS[0]), 1e4),
-        Row(block.AT_DISTANCE, tape.site(Site("PA", W)), tape.point(POINTS[2]), 1e4, 0.1),
-        Row(block.MEET, tape.axis(PALM_S, BoneAxis.NRM), tape.unit(tape.vector(VECTORS[8])), 9e2),
-        Row(block.MEET, tape.axis(PALM_W, BoneAxis.DIR), tape.unit(tape.vector(VECTORS[5])), 9e2),
-        Row(block.PERPENDICULAR, tape.axis(HEAD, BoneAxis.DIR), tape.vector(VECTORS[7]), 9e2),
-    ]
-    reach = capsules.radius[capsules.pairs].sum(axis=1) + 0.02
-    collisions = Collisions(capsules.pairs, reach)
-    return case, case.program(rows, collisions, keep=1.0, comfort=3.0, overlap=1e4)
-
-
 def test_balls_pass_over_nothing_that_overlaps(signer: Rig) -> None:
     limits, capsules = signer.coordinates, signer.capsules
     pairs = np.vstack([capsules.pairs, capsules.finger_pairs])
@@ -353,66 +252,3 @@ def brute_overlaps(rig: Rig, pairs: NDArray[np.int64], frames: Frames) -> NDArra
     i, j = pairs.T
     gap = capsules.radius[i] + capsules.radius[j] - segment_distance(a[i], b[i], a[j], b[j])
     return np.asarray(np.maximum(gap, 0.0))
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_nlopt_gives_the_same_bytes_through_c_and_through_python(
-    seed: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    case, program = everything(seed)
-    x = case.q[program.free]
-    assert nlopt_backend.c_interface() is not None
-    compiled = program.descend(x, max_evaluations=150, tolerance=1e-6)
-    monkeypatch.setattr(nlopt_backend, "c_interface", lambda: None)
-    called = program.descend(x, max_evaluations=150, tolerance=1e-6)
-    assert compiled.tobytes() == called.tobytes()
-    assert program(compiled, np.empty(0)) < 0.5 * program(x, np.empty(0))
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_polishing_ends_where_nothing_pulls_but_into_a_limit(seed: int) -> None:
-    case, program = everything(seed)
-    start = program.descend(case.q[program.free], max_evaluations=100, tolerance=1e-2)
-    before = program(start, np.empty(0))
-    x = program.polish(start, rounds=300, tolerance=1e-14)
-    gradient = np.empty(len(x))
-    assert program(x, gradient) <= before
-    assert np.all(x >= program.lower)
-    assert np.all(x <= program.upper)
-    at_limit = ((x == program.lower) & (gradient > 0)) | ((x == program.upper) & (gradient < 0))
-    first = np.empty(len(x))
-    program(start, first)
-    assert np.abs(gradient[~at_limit]).max() < 1e-3 * np.abs(first).max()
-
-
-def test_polishing_a_single_coordinate_is_newton_s_method() -> None:
-    """One parabola: a step or two reach its bottom to the last digits."""
-    case = Case(3, [stick_body().coordinates.index["head.axial"]])
-    program = case.program([], keep=2.0)
-    x = program.polish(np.array([0.4]), rounds=10, tolerance=0.0)
-    assert x[0] == pytest.approx(case.rig.coordinates.idle[program.free[0]], abs=1e-9)
-
-
-@pytest.mark.parametrize("free", [[], [3], None], ids=["nothing", "one", "everything"])
-def test_kernels_write_nowhere_but_into_their_block(
-    free: list[int] | None, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """With nothing to move, matrices have no first row: a loop over it would end in the heap."""
-    untouched, blocks = 4242, []
-    lay_out = Layout.block
-
-    def padded(layout: Layout) -> NDArray[np.int64]:
-        whole = np.full(layout.size + 64, untouched)
-        whole[: layout.size] = lay_out(layout)
-        blocks.append(whole)
-        return whole[: layout.size]
-
-    monkeypatch.setattr(Layout, "block", padded)
-    case = Case(5, free)
-    program = case.program([], keep=2.0, comfort=1.0)
-    x = case.q[program.free]
-    program(x, np.empty(len(x)))
-    x = program.descend(x, max_evaluations=10, tolerance=1e-6)
-    program.polish(x, rounds=10, tolerance=0.0)
-    (block,) = blocks
-    assert np.all(block[-64:] == untouched)

@@ -11,8 +11,8 @@ from azee.formats import CLIP_WRITERS, writing
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
-    from azee.motion.clip import Clip
-    from azee.motion.recording import Recording
+    from azee.clip.clip import Clip
+    from azee.clip.recording import Recording
     from azee_rig.rig import Rig
 
 CLIP_SUFFIXES = (".npz", ".bvh")
@@ -59,7 +59,7 @@ def save_clip(clip: Clip, rig: Rig, path: str | Path) -> None:
 
 
 def _stored(path: Path, rig: Rig | None) -> OpenClip:
-    from azee.motion.clip_file import ClipFileError, OtherBodyError, read_clip, rig_of
+    from azee.clip.archive import ClipFileError, OtherBodyError, read_clip, rig_of
     from azee_rig.load import load_rig
 
     try:
@@ -85,8 +85,8 @@ def _shipped(path: Path, name: str) -> str:
 
 
 def _recorded(path: Path, rig: Rig | None) -> OpenClip:
-    from azee.motion.bvh import BvhError, read_bvh
-    from azee.motion.clip_bvh import LOST_RAD, is_own, own_clip
+    from azee.clip.bvh import BvhError, read_bvh
+    from azee.clip.own_bvh import LOST_RAD, is_own, own_clip
     from azee_rig.load import load_rig
 
     try:
@@ -109,8 +109,8 @@ def _recorded(path: Path, rig: Rig | None) -> OpenClip:
 
 def _carried_over(path: Path, recording: Recording, body: Rig) -> OpenClip:
     """Play the motion of another skeleton on a body. Raises: AZeeError: not-a-clip."""
-    from azee.motion.measured import RetargetError, measure_recording
-    from azee.motion.retarget import retarget
+    from azee.clip.retarget import retarget
+    from azee.clip.retarget_source import RetargetError, measure_recording
 
     try:
         source = measure_recording(recording)

@@ -13,11 +13,11 @@ from azee.formats import WRITERS, write_elan, writing
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
+    from azee.animation import Animation
+    from azee.clip.clip import Clip
     from azee.lang.program import Program
-    from azee.motion.animate import Animation
-    from azee.motion.clip import Clip
-    from azee.motion.keying import Mode
-    from azee.motion.report import MotionReport
+    from azee.motion.tasks.keying import Mode
+    from azee.quality.motion_report import MotionReport
     from azee.score.score import Score
     from azee_grammar.source import Source
     from azee_rig.rig import Rig
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 Hand = Literal["right", "left"]
 Method = Literal["grouped", "two-level"]
-
-TEXT_SUFFIXES = (".azee", ".az")
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,9 +68,9 @@ class Compilation:
             raise ValueError(f"no format has the suffix of {path}; known are {' '.join(WRITERS)}")
         with writing(path):
             if media is not None and Path(path).suffix.lower() == ".eaf":
-                write_elan(self, Path(path), Path(media))
+                write_elan(self.score, self.animation, Path(path), Path(media))
             else:
-                write(self, Path(path))
+                write(self.score, self.rig, self.animation, Path(path))
 
 
 def compile(  # noqa: A001 - azee.compile, as re.compile
@@ -145,8 +143,8 @@ def perform(
 
     Raises: AZeeError: the rig lacks what the score names, or `clip-times`: too many frames.
     """
-    from azee.motion.animate import animate
-    from azee.motion.resample import TooManyFramesError, frame_count
+    from azee.animation import animate
+    from azee.clip.resample import TooManyFramesError, frame_count
 
     if missing := lacks(score, rig, dominant):
         raise AZeeError(*missing)
@@ -159,7 +157,7 @@ def perform(
     side = _side(dominant)
     postures = None
     if solver == "two-level":
-        from azee.motion.two_level import two_level_solver
+        from azee.motion.keys.two_level import two_level_solver
 
         postures = two_level_solver(rig, side)
     animation = animate(
@@ -193,7 +191,7 @@ def _lacking(error: BindingError, rig: Rig) -> Diagnostic:
 
 
 def _source(text_or_path: str | Path) -> Source:
-    from azee_grammar.files import read_source
+    from azee_grammar.files import TEXT_SUFFIXES, read_source
     from azee_grammar.source import Source
 
     if isinstance(text_or_path, str):

@@ -1,4 +1,4 @@
-"""The formats that a compilation can be saved in, by suffix; each writer is loaded when used."""
+"""The formats that clips and animations are saved in, by suffix; writers are loaded when used."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, TypeAlias
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
-    from azee.compilation import Compilation
-    from azee.motion.clip import Clip
+    from azee.animation import Animation
+    from azee.clip.clip import Clip
+    from azee.score.score import Score
     from azee_rig.rig import Rig
 
 
@@ -47,36 +48,36 @@ def cannot_write(path: str | Path, error: OSError) -> Diagnostic:
 
 
 def _glb(clip: Clip, rig: Rig, path: Path) -> None:
-    from azee.export.glb import write_glb
+    from azee.export.formats.glb import write_glb
 
     write_glb(clip, rig, path)
 
 
 def _bvh(clip: Clip, rig: Rig, path: Path) -> None:
-    from azee.export.bvh import write_bvh
+    from azee.export.formats.bvh import write_bvh
 
     write_bvh(clip, rig, path)
 
 
 def _json(clip: Clip, rig: Rig, path: Path) -> None:
-    from azee.export.clip_json import write_json
+    from azee.export.formats.clip_json import write_json
 
     write_json(clip, rig, path)
 
 
 def _npz(clip: Clip, rig: Rig, path: Path) -> None:
+    from azee.clip.archive import write_clip
     from azee.export.files import replace_file
-    from azee.motion.clip_file import write_clip
 
     with replace_file(path) as file:
         write_clip(clip, rig, file)
 
 
-def _film(made: Compilation, path: Path) -> None:
-    from azee.export.film import write_film
+def _film(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
+    from azee.export.pictures.film import write_film
 
     with filming():
-        write_film(made.clip, made.rig, path, fps=made.report.fps)
+        write_film(animation.clip, rig, path, fps=animation.report.fps)
 
 
 @contextmanager
@@ -85,8 +86,8 @@ def filming() -> Iterator[None]:
 
     Raises: AZeeError: not-installed, clip-times.
     """
-    from azee.export.film import NoEncoderError
-    from azee.motion.resample import TooManyFramesError
+    from azee.clip.resample import TooManyFramesError
+    from azee.export.pictures.film import NoEncoderError
 
     try:
         yield
@@ -100,47 +101,48 @@ def filming() -> Iterator[None]:
         raise AZeeError(Diagnostic("clip-times", str(error), None)) from error
 
 
-def _svg(made: Compilation, path: Path) -> None:
-    from azee.export.score_svg import write_svg
+def _svg(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
+    from azee.export.pictures.score_svg import write_svg
     from azee.export.track_rows import track_rows
 
-    write_svg(made.score, path, track_rows(made.animation.tracks))
+    write_svg(score, path, track_rows(animation.tracks))
 
 
-def _eaf(made: Compilation, path: Path) -> None:
-    write_elan(made, path)
+def _eaf(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
+    write_elan(score, animation, path)
 
 
-def write_elan(made: Compilation, path: Path, media: Path | None = None) -> None:
-    """Write a compilation as an ELAN file: on the time line of its films, `media` being one."""
-    from azee.export.eaf import write_eaf
+def write_elan(score: Score, animation: Animation, path: Path, media: Path | None = None) -> None:
+    """Write a score as an ELAN file: on the time line of its films, `media` being one."""
+    from azee.export.formats.eaf import write_eaf
     from azee.export.track_rows import track_rows
 
-    animation = made.animation
     rows = track_rows(animation.tracks)
-    write_eaf(made.score, path, rows, lead_s=animation.lead_s, media=media)
+    write_eaf(score, path, rows, lead_s=animation.lead_s, media=media)
 
 
-def _png(made: Compilation, path: Path) -> None:
-    from azee.export.storyboard import write_png
+def _png(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
+    from azee.export.pictures.storyboard import write_png
 
-    write_png(made.clip, made.rig, path, made.animation.key_times)
+    write_png(animation.clip, rig, path, animation.key_times)
 
 
-def _of_compilation(write: ClipWriter) -> Callable[[Compilation, Path], None]:
-    return lambda made, path: write(made.clip, made.rig, path)
+def _of_clip(write: ClipWriter) -> Writer:
+    return lambda score, rig, animation, path: write(animation.clip, rig, path)
 
 
 ClipWriter: TypeAlias = "Callable[[Clip, Rig, Path], None]"
+Writer: TypeAlias = "Callable[[Score, Rig, Animation, Path], None]"
 
 CLIP_WRITERS: dict[str, ClipWriter] = {".glb": _glb, ".bvh": _bvh, ".json": _json, ".npz": _npz}
 """Formats of a clip alone."""
-WRITERS: dict[str, Callable[[Compilation, Path], None]] = {
-    **{suffix: _of_compilation(write) for suffix, write in CLIP_WRITERS.items()},
+WRITERS: dict[str, Writer] = {
+    **{suffix: _of_clip(write) for suffix, write in CLIP_WRITERS.items()},
     ".svg": _svg,
     ".png": _png,
     ".eaf": _eaf,
 }
+"""Formats of an animation of a score; films are added below."""
 SUFFIXES = tuple(WRITERS)
 """Suffixes of the formats that a compilation can be saved in, but for films."""
 FILM_SUFFIXES = (".mp4", ".webm")

@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from azee.export.glb import write_glb
-from azee.motion.clip import Clip
+from azee.clip.clip import Clip
+from azee.export.formats.glb import write_glb
 from azee_rig.load import load_rig, shipped_rigs
 from azee_rig.rig import Rig
 

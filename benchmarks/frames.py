@@ -16,7 +16,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from azee.compilation import perform
-from azee.motion.report import MotionReport
+from azee.quality.motion_report import MotionReport
 from azee_rig.load import load_rig
 from benchmarks.penetration import TOLERATED_M, scores
 

@@ -12,7 +12,7 @@ import time
 from collections.abc import Sequence
 from fractions import Fraction
 
-from azee.motion.animate import animate
+from azee.animation import animate
 from azee.score.interval import Interval
 from azee.score.score import Arrangement, Block, Group, Key, Score
 from azee_rig.load import load_rig

@@ -21,7 +21,7 @@ from azee.cli.rules import _example
 from azee.compilation import perform, score_of
 from azee.lang.library import shipped_library
 from azee.lang.program import evaluate_expression, load
-from azee.motion.posture import KeyPosture
+from azee.motion.tasks.posture import KeyPosture
 from azee.score.score import Score
 from azee_grammar.files import read_source
 from azee_grammar.library import shipped_names

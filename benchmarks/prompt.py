@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from azee.assist.completion import completions
+from azee.repl import commands
 from azee.repl.performer import Performer
 from azee.repl.repl import Repl
 from azee.repl.screen import Screen
@@ -47,7 +48,7 @@ def main(_: Sequence[str] = ()) -> None:
 def answer(repl: Repl, text: str) -> None:
     """Let the prompt answer, as if it had not solved that before."""
     repl.performer.change(hand="right")
-    if not repl.run(text):
+    if not commands.answer(repl, text):
         raise SystemExit(f"{text} is at fault")
 
 

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import build_signer
-from azee.export.gltf.document import Document
-from azee.export.gltf.mesh import add_mesh
+from azee.export.formats.gltf.document import Document
+from azee.export.formats.gltf.mesh import add_mesh
 from azee_rig.build.anatomy import SIDES, Anatomy, read_anatomy, unit
 from azee_rig.build.chain_builder import frame
 from azee_rig.build.dress import dress

@@ -18,9 +18,9 @@ from azee.formats import CLIP_WRITERS
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
+    from azee.clip.blend import Blend
+    from azee.clip.clip import Clip
     from azee.clips import OpenClip
-    from azee.motion.blend import Blend
-    from azee.motion.clip import Clip
     from azee_rig.rig import Rig
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -78,8 +78,8 @@ def cut(
     quiet: bool,
 ) -> None:
     """Write the part of FILE between two times."""
-    from azee.motion.edit import cut as cut_out
-    from azee.motion.edit import shifted
+    from azee.clip.edit import cut as cut_out
+    from azee.clip.edit import shifted
 
     check_outputs(outputs)
     found = _open([file], rig, quiet)[0]
@@ -118,7 +118,7 @@ def join(
     quiet: bool,
 ) -> None:
     """Join the FILEs into one clip, blending each with the next."""
-    from azee.motion.blend import joined
+    from azee.clip.blend import joined
 
     check_outputs(outputs)
     found = _open(files, rig, quiet)
@@ -143,7 +143,7 @@ def mirror(
     file: Path, outputs: Sequence[Path], fps: float | None, rig: str | None, quiet: bool
 ) -> None:
     """Write the mirror image of FILE, as a left-handed signer signs it."""
-    from azee.motion.edit import left_handed
+    from azee.clip.edit import left_handed
 
     check_outputs(outputs)
     found = _open([file], rig, quiet)[0]
@@ -165,7 +165,7 @@ def retime(
     quiet: bool,
 ) -> None:
     """Write FILE slower or faster; the frame rate stays."""
-    from azee.motion.edit import retimed
+    from azee.clip.edit import retimed
 
     if (duration_s is None) == (speed is None):
         raise click.UsageError("give either --duration or --speed")
@@ -207,8 +207,8 @@ def _open(files: Sequence[Path], rig: str | None, quiet: bool) -> list[OpenClip]
 
 def _save(made: Clip, body: Rig, outputs: Sequence[Path], fps: float | None, quiet: bool) -> None:
     """Write a clip in every format asked for, evenly spaced, and say so."""
+    from azee.clip.resample import at_rate, rate
     from azee.clips import save_clip
-    from azee.motion.resample import at_rate, rate
 
     if fps is None and len(made.times) > 1:
         fps = 30.0 if rate(made) is None else None
@@ -222,7 +222,7 @@ def _save(made: Clip, body: Rig, outputs: Sequence[Path], fps: float | None, qui
 
 
 def _rate(clips: Sequence[Clip]) -> float | None:
-    from azee.motion.blend import common_rate
+    from azee.clip.blend import common_rate
 
     return common_rate(clips)
 

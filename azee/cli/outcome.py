@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from azee.compilation import Compilation
-    from azee.motion.report import ConstraintResult
+    from azee.quality.motion_report import ConstraintResult
 
 
 def outcome(made: Compilation, written: Sequence[Path]) -> str:

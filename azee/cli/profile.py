@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from azee.motion.report import MotionReport
+    from azee.quality.motion_report import MotionReport
     from azee_solver.report import ProblemReport
 
 STARTED = "Python and the command"
 SOLVER_STEPS = (
     ("nlopt", "importing nlopt"),
     ("azee_solver.program", "loading the kernels"),
-    ("azee.motion.animate", "importing solver and motion"),
+    ("azee.animation", "importing solver and motion"),
 )
 """What solving needs, in the order of import: a module, and what loading it is called."""
 

@@ -17,13 +17,13 @@ from azee.cli.outcome import size_of
 from azee.cli.outputs import check_outputs, with_suffix
 from azee.cli.text import Text, dominant_option, text_options
 from azee.clips import CLIP_SUFFIXES
-from azee.export.shots import SHOTS
+from azee.export.pictures.shots import SHOTS
 from azee.formats import FILM_SUFFIXES, filming, writing
 
 if TYPE_CHECKING:
+    from azee.clip.clip import Clip
     from azee.compilation import Hand
-    from azee.export.scene import Look
-    from azee.motion.clip import Clip
+    from azee.export.pictures.scene import Look
     from azee_rig.rig import Rig
 
 OF_TEXTS = ("expression", "utterance", "libraries", "dominant", "no_life")
@@ -114,7 +114,7 @@ def render(
     quiet: bool,
 ) -> None:
     """Draw FILE, a text or a clip (.npz, .bvh), as pictures and films."""
-    from azee.export.scene import Look, NoRoomError
+    from azee.export.pictures.scene import Look, NoRoomError
 
     films = [path for path in outputs if path.suffix.lower() in FILM_SUFFIXES]
     if transparent and any(path.suffix.lower() == ".mp4" for path in films):
@@ -153,7 +153,7 @@ def render(
 
 
 def _encoder_there() -> None:
-    from azee.export.film import encoder
+    from azee.export.pictures.film import encoder
 
     with filming():
         encoder()
@@ -195,7 +195,7 @@ def _of_clip(file: Path, rig: str | None, quiet: bool) -> tuple[Clip, Rig, Seque
 
 
 def _film(clip: Clip, body: Rig, path: Path, look: Look, fps: float, quiet: bool) -> None:
-    from azee.export.film import write_film
+    from azee.export.pictures.film import write_film
 
     with bar(f"Filming {path}", quiet=quiet) as progress, filming(), writing(path):
         write_film(clip, body, path, look, fps=fps, progress=progress)
@@ -210,7 +210,7 @@ def _picture(
     keys: Sequence[float] | None,
     sheet: bool,
 ) -> None:
-    from azee.export.still import write_moments, write_sheet
+    from azee.export.pictures.still import write_moments, write_sheet
 
     with writing(path):
         if sheet:

@@ -16,7 +16,7 @@ from azee.formats import CLIP_WRITERS
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
-    from azee.motion.measured import Measured
+    from azee.clip.retarget_source import Measured
 
 UNITS = ("m", "cm", "inch", "mm", "dm", "foot")
 
@@ -46,8 +46,8 @@ def retarget(file: Path, outputs: Sequence[Path], rig: str, unit: str | None, qu
     Kept are: where the hands are from the middle of the shoulders, in arm lengths, how the palms
     are turned, how fingers bend, how trunk and head turn. Legs and the way of the body are not.
     """
+    from azee.clip.retarget import retarget as on_other_body
     from azee.clips import save_clip
-    from azee.motion.retarget import retarget as on_other_body
 
     check_outputs(outputs)
     body = load_body(rig)
@@ -64,9 +64,9 @@ def retarget(file: Path, outputs: Sequence[Path], rig: str, unit: str | None, qu
 
 def _measured(file: Path, unit: str | None) -> Measured:
     """Read and measure. Raises: AZeeError: cannot-read, not-a-clip."""
+    from azee.clip.bvh import BvhError, read_bvh
+    from azee.clip.retarget_source import RetargetError, measure_clip, measure_recording
     from azee.clips import open_clip
-    from azee.motion.bvh import BvhError, read_bvh
-    from azee.motion.measured import RetargetError, measure_clip, measure_recording
 
     if file.suffix.lower() != ".bvh":
         opened = open_clip(file)

@@ -291,7 +291,7 @@ def _list(
 
 def _draw(what: str, loaded: Rig, path: Path) -> None:
     """Draw a sheet, save it and say so. Raises: AZeeError: cannot-write."""
-    from azee.export.atlas import write_sheet
+    from azee.export.pictures.atlas import write_sheet
     from azee.formats import writing
 
     check_outputs([path])

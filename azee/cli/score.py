@@ -15,8 +15,8 @@ from azee.formats import writing
 
 if TYPE_CHECKING:
     from azee.compilation import Hand
-    from azee.motion.keying import Mode
-    from azee.motion.tracks import Track
+    from azee.motion.tasks.keying import Mode
+    from azee.motion.tasks.tracks import Track
     from azee.score.score import Score
 
 
@@ -87,15 +87,15 @@ def _write(found: Score, path: Path, keyed: Sequence[Track], media: Path | None)
     from azee.export.track_rows import track_rows
 
     if path.suffix.lower() == ".svg":
-        from azee.export.score_svg import write_svg
+        from azee.export.pictures.score_svg import write_svg
 
         write_svg(found, path, track_rows(keyed))
     elif path.suffix.lower() == ".eaf":
-        from azee.export.eaf import write_eaf
+        from azee.export.formats.eaf import write_eaf
 
         write_eaf(found, path, track_rows(keyed), media=media)
     else:
-        from azee.export.score_png import write_score_png
+        from azee.export.pictures.score_png import write_score_png
 
         write_score_png(found, path, track_rows(keyed))
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from azee.motion.tracks import Track
+    from azee.motion.tasks.tracks import Track
 
 SIDES = {"L": "left", "R": "right"}
 _FINGER = re.compile("(?:thumb|index|middle|ring|little)_")
@@ -43,7 +43,7 @@ def track_rows(tracks: Sequence[Track]) -> tuple[Row, ...]:
     """Return a row per part of the body that any track keys, in the order of its coordinates."""
     if not tracks:
         return ()
-    from azee.motion.limbs import limb_of_coordinate
+    from azee.motion.tasks.limbs import limb_of_coordinate
 
     bars: dict[str, list[Bar]] = {}
     for track in tracks:

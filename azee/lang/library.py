@@ -12,14 +12,13 @@ from azee.lang.resolve import Resolving
 from azee.lang.rule import Rule, is_azop
 from azee.lang.scope import Namespace, Scope
 from azee_grammar.diagnostic import AZeeError, Diagnostic, Related
-from azee_grammar.files import read_source
+from azee_grammar.files import TEXT_SUFFIXES, read_source
 from azee_grammar.library import shipped, shipped_names
 from azee_grammar.nearest import nearest
 from azee_grammar.parser import parse
 from azee_grammar.source import Source
 from azee_grammar.syntax import Definition, File, Use, Utterance
 
-SUFFIXES = (".azee", ".az")
 CORE = "core"
 DEFAULT = "lsf"
 """What is in scope beside the core where a text uses nothing."""
@@ -120,7 +119,7 @@ class Librarian:
             return None
         beside = () if folder is None else (folder, folder.parent)
         for place in (*beside, *self._folders):
-            for path in (place / name, *(place / f"{name}{suffix}" for suffix in SUFFIXES)):
+            for path in (place / name, *(place / f"{name}{suffix}" for suffix in TEXT_SUFFIXES)):
                 if path.is_dir() if path.name == name else path.is_file():
                     return self._read(name, path)
         return shipped_library(name) if name in shipped_names() else None
@@ -172,7 +171,7 @@ def names_in(folder: Path) -> list[str]:
     Raises: OSError: the folder cannot be read.
     """
     inside = [path for path in folder.iterdir() if _is_plain(path.name)]
-    texts = {path.stem for path in inside if path.suffix in SUFFIXES}
+    texts = {path.stem for path in inside if path.suffix in TEXT_SUFFIXES}
     return sorted(texts | {path.name for path in inside if path.is_dir() and _texts(path)})
 
 
@@ -181,7 +180,7 @@ def _is_plain(name: str) -> bool:
 
 
 def _texts(folder: Path) -> list[Path]:
-    return sorted(path for path in folder.iterdir() if path.suffix in SUFFIXES)
+    return sorted(path for path in folder.iterdir() if path.suffix in TEXT_SUFFIXES)
 
 
 def _same_but_for_case(files: Sequence[Path]) -> Iterator[Diagnostic]:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from azee.lang.library import SUFFIXES
 from azee.lsp.analysis import Analysis, Sound, analyse
 from azee.lsp.document import Document, uri_of
 from azee_grammar.diagnostic import AZeeError, Diagnostic
-from azee_grammar.files import read_source
+from azee_grammar.files import TEXT_SUFFIXES, read_source
 from azee_grammar.library import shipped
 from azee_grammar.source import Source
 
@@ -129,7 +128,7 @@ def _files(root: Path) -> Iterator[Path]:
     except OSError:
         return
     for path in inside:
-        if path.suffix in SUFFIXES and path.is_file():
+        if path.suffix in TEXT_SUFFIXES and path.is_file():
             yield path
         elif path.is_dir() and not (path.is_symlink() or _is_hidden(path.name)):
             yield from _files(path)

@@ -13,10 +13,10 @@ from html import escape
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from azee.animation import Animation
+    from azee.clip.clip import Clip
     from azee.compilation import Compilation
-    from azee.motion.animate import Animation
-    from azee.motion.clip import Clip
-    from azee.motion.report import ConstraintResult, MotionReport
+    from azee.quality.motion_report import ConstraintResult, MotionReport
     from azee.score.score import Score
     from azee_rig.rig import Rig
 
@@ -28,7 +28,7 @@ _STYLE = "text-align: left; padding: 1px 10px; white-space: nowrap"
 
 def score(shown: Score) -> Bundle:
     """Show a score as `azee score` draws it."""
-    from azee.export.score_svg import draw
+    from azee.export.pictures.score_svg import draw
     from azee.export.score_text import tree
 
     return {"image/svg+xml": draw(shown), "text/plain": tree(shown)}
@@ -36,7 +36,7 @@ def score(shown: Score) -> Bundle:
 
 def compilation(made: Compilation) -> Bundle:
     """Show the score, the moving body, and how well the constraints are met."""
-    from azee.export.score_svg import draw
+    from azee.export.pictures.score_svg import draw
 
     moving = _moving(made.clip, made.rig, made.animation.key_times)
     drawing = f'<div style="overflow-x: auto">{draw(made.score)}</div>'
@@ -74,7 +74,7 @@ def report(shown: MotionReport) -> Bundle:
 
 def rig(shown: Rig) -> Bundle:
     """Show a body at rest, and what it has."""
-    from azee.export.picture import picture
+    from azee.export.pictures.picture import picture
 
     data = io.BytesIO()
     picture(shown, shown.coordinates.idle, "front", size=_PORTRAIT).save(data, "PNG")

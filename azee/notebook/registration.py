@@ -10,9 +10,9 @@ SHOWN = {
     ("azee.score.score", "Blank"): "score",
     ("azee.score.score", "Group"): "score",
     ("azee.compilation", "Compilation"): "compilation",
-    ("azee.motion.animate", "Animation"): "animation",
-    ("azee.motion.clip", "Clip"): "clip",
-    ("azee.motion.report", "MotionReport"): "report",
+    ("azee.animation", "Animation"): "animation",
+    ("azee.clip.clip", "Clip"): "clip",
+    ("azee.quality.motion_report", "MotionReport"): "report",
     ("azee_rig.rig", "Rig"): "rig",
 }
 """Module and name of a class to the function of display.py that shows it."""

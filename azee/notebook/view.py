@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from azee.motion.clip import Clip
+    from azee.clip.clip import Clip
     from azee_rig.rig import Rig
 
 SIZE = (560, 480)
@@ -67,8 +67,8 @@ def framed(document: str) -> str:
 
 def still(clip: Clip, rig: Rig, moments: Sequence[float]) -> bytes:
     """Return a strip of the postures that tell most of a clip, PNG."""
-    from azee.export.picture import contact_sheet, picture
-    from azee.export.storyboard import telling_frames
+    from azee.export.pictures.picture import contact_sheet, picture
+    from azee.export.pictures.storyboard import telling_frames
 
     pictures = []
     for frame in telling_frames(clip, moments, _MOST):
@@ -81,7 +81,7 @@ def still(clip: Clip, rig: Rig, moments: Sequence[float]) -> bytes:
 
 
 def _glb(clip: Clip, rig: Rig) -> bytes:
-    from azee.export.glb import write_glb
+    from azee.export.formats.glb import write_glb
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "clip.glb"

@@ -40,8 +40,18 @@ def is_command(text: str) -> bool:
     return len(start) > 1 and start[0] == "/" and start[1].isalpha()
 
 
-def carry_out(repl: Repl, text: str) -> None:
-    """Do what a command says.
+def answer(repl: Repl, text: str) -> bool:
+    """Carry out a command or evaluate AZee; return whether nothing was wrong with the input.
+
+    Raises: Quit: that was what the user wanted.
+    """
+    if is_command(text):
+        return repl.attempt(lambda: carry_out(repl, text))
+    return repl.attempt(lambda: repl.evaluate(text))
+
+
+def carry_out(repl: Repl, text: str) -> bool:
+    """Do what a command says, and return that it was done.
 
     Raises: Refusal: it cannot be done. AZeeError: the input or a file is at fault. Quit.
     """
@@ -53,6 +63,7 @@ def carry_out(repl: Repl, text: str) -> None:
         hint = f"did you mean {' or '.join(near)}?" if near else "/help lists all commands"
         raise Refusal(f"there is no command /{name}", hint)
     command.run(repl, found[2] or "")
+    return True
 
 
 def _help(repl: Repl, argument: str) -> None:
@@ -114,7 +125,7 @@ def _reload(repl: Repl, argument: str) -> None:
 
 
 def _score(repl: Repl, argument: str) -> None:
-    from azee.export.score_svg import write_svg
+    from azee.export.pictures.score_svg import write_svg
     from azee.export.score_text import tree
 
     score = _last_score(repl)
@@ -126,7 +137,7 @@ def _score(repl: Repl, argument: str) -> None:
         if path.suffix.lower() == ".svg":
             write_svg(score, path)
         else:
-            from azee.export.score_png import write_score_png
+            from azee.export.pictures.score_png import write_score_png
 
             write_score_png(score, path)
     repl.screen.say(f"wrote {path}")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TextIO
 
 from azee.assist.completeness import Completeness, completeness, unclosed
-from azee.repl.commands import is_command
+from azee.repl.commands import answer, is_command
 from azee.repl.ink import Ink
 from azee.repl.repl import Quit, Repl
 
@@ -18,7 +18,7 @@ def read_through(repl: Repl, stream: TextIO) -> bool:
     right = True
     try:
         for text in inputs(stream):
-            right = repl.run(text) and right
+            right = answer(repl, text) and right
     except Quit:
         pass
     return right
@@ -55,7 +55,7 @@ def converse(repl: Repl) -> None:
             return
         try:
             if text.strip():
-                repl.run(text)
+                answer(repl, text)
         except Quit:
             return
 

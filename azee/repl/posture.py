@@ -31,7 +31,7 @@ class Wish:
     @classmethod
     def read(cls, argument: str) -> Wish:
         """Read `[FILE.png] [SECONDS] [VIEW]`. Raises: Refusal: it is something else."""
-        from azee.export.picture import VIEWS
+        from azee.export.pictures.camera import VIEWS
 
         words = argument.split()
         path = time_s = None
@@ -102,7 +102,7 @@ def half_blocks(image: Image) -> str:
 def _picture(made: Compilation, wish: Wish, size: tuple[int, int]) -> Image:
     import numpy as np
 
-    from azee.export.picture import picture
+    from azee.export.pictures.picture import picture
 
     clip = made.clip
     frame = int(np.abs(clip.times - wish.at(made) - made.animation.lead_s).argmin())

@@ -94,7 +94,7 @@ def converse(repl: Repl, history: History) -> None:
         if not text.strip():
             continue
         try:
-            repl.run(text.rstrip())
+            commands.answer(repl, text.rstrip())
         except Quit:
             return
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from azee.repl.ink import Ink
@@ -42,22 +42,24 @@ class Repl:
         self.session, self.performer, self.screen = session, performer, screen
         self.interactive, self.solving = interactive, solving
 
-    def run(self, text: str) -> bool:
-        """Take in one input; return whether nothing was wrong with it.
+    def evaluate(self, text: str) -> bool:
+        """Evaluate an input and show what it gives; return whether nothing was wrong with it.
+
+        Raises: AZeeError: the text is at fault.
+        """
+        self.refresh()
+        right = True
+        for outcome in self.session.enter(text):
+            right = self._shown(outcome) and right
+        return right
+
+    def attempt(self, action: Callable[[], bool]) -> bool:
+        """Do something and tell what goes wrong; return whether nothing did.
 
         Raises: Quit: that was what the user wanted.
         """
-        from azee.repl.commands import carry_out, is_command
-
         try:
-            if is_command(text):
-                carry_out(self, text)
-                return True
-            self.refresh()
-            right = True
-            for outcome in self.session.enter(text):
-                right = self._shown(outcome) and right
-            return right
+            return action()
         except AZeeError as error:
             self.screen.complain(error.diagnostics)
         except Refusal as refusal:

@@ -9,7 +9,7 @@ from azee.cli.outcome import amount
 from azee.repl.ink import Ink, Line, cut, width
 
 if TYPE_CHECKING:
-    from azee.motion.report import ConstraintResult, MotionReport
+    from azee.quality.motion_report import ConstraintResult, MotionReport
 
 
 def summary(report: MotionReport, took_s: float) -> Iterator[Line]:

@@ -6,8 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from azee.lang.library import SUFFIXES
-from azee_grammar.files import read_source
+from azee_grammar.files import TEXT_SUFFIXES, read_source
 from azee_grammar.source import Source
 
 Stamp = tuple[int, int]
@@ -68,6 +67,6 @@ def _listing(folder: Path) -> frozenset[str]:
     """Return the names of the rule texts and folders in a folder, as far as it can be read."""
     try:
         inside: Iterable[Path] = list(folder.iterdir())
-        return frozenset(p.name for p in inside if p.suffix in SUFFIXES or p.is_dir())
+        return frozenset(p.name for p in inside if p.suffix in TEXT_SUFFIXES or p.is_dir())
     except OSError:
         return frozenset()

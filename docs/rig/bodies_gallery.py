@@ -13,7 +13,8 @@ from gallery import small
 from PIL import Image
 
 import azee
-from azee.export.picture import Camera, camera, contact_sheet, picture, render
+from azee.export.pictures.camera import Camera, camera
+from azee.export.pictures.picture import contact_sheet, picture, render
 from azee_rig.load import load_rig, shipped_rigs
 from azee_rig.rig import Rig
 

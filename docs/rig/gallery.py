@@ -17,15 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from azee.export.atlas import SITE_VIEWS, bone_sheet, morph_sheet, site_panels
-from azee.export.picture import (
-    Camera,
-    camera,
-    contact_sheet,
-    from_direction,
-    picture,
-    render,
-)
+from azee.export.pictures.atlas import SITE_VIEWS, bone_sheet, morph_sheet, site_panels
+from azee.export.pictures.camera import Camera, camera, from_direction
+from azee.export.pictures.picture import contact_sheet, picture, render
 from azee_rig.build.plain import plain
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig

@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from azee.export.picture import Camera, camera, contact_sheet, render
+from azee.export.pictures.camera import Camera, camera
+from azee.export.pictures.picture import contact_sheet, render
 from azee.lang.program import evaluate_expression
 from azee.score.score import Key, leaves
 from azee_rig.load import load_rig

@@ -12,6 +12,8 @@ from azee_grammar.source import Source, Span
 LARGEST_BYTES = 16 * 1024 * 1024
 """A text beyond this is refused before it is read whole: no corpus file comes near it."""
 
+TEXT_SUFFIXES = (".azee", ".az")
+"""Of files with AZee in them."""
 STANDARD_INPUT = "-"
 
 _BOM = b"\xef\xbb\xbf"

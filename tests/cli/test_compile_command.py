@@ -42,7 +42,7 @@ def _clip(path: str) -> dict[str, Any]:
 def test_every_format_from_one_solution(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    import azee.motion.animate as motion
+    import azee.animation as motion
 
     calls = []
     original = motion.animate

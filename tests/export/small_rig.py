@@ -7,7 +7,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.clip import Clip, Label
+from azee.clip.clip import Clip, Label
 from azee_rig.mesh import BodyMesh, Part
 from azee_rig.rig import Rig
 from azee_rig.skeleton import Pose, Skeleton

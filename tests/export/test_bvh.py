@@ -13,8 +13,8 @@ from plain_bvh import PlainBvh
 from programs import Node
 from small_rig import SMALL, tumbling
 
-from azee.export.bvh import write_bvh
-from azee.motion.clip import Clip
+from azee.clip.clip import Clip
+from azee.export.formats.bvh import write_bvh
 from azee_rig.rig import Rig
 
 MILLIMETRE = 1e-3

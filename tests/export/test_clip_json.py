@@ -12,7 +12,7 @@ import pytest
 from formats import schema
 from small_rig import SMALL, tumbling
 
-from azee.export.clip_json import write_json
+from azee.export.formats.clip_json import write_json
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from eaf_rules import check
 from hypothesis import given, settings
 
 from azee.cli.main import run
-from azee.export.eaf import write_eaf
+from azee.export.formats.eaf import write_eaf
 from azee.export.track_rows import Bar, Row
 from azee.score.interval import Interval
 from azee.score.score import Block, Call, Group, Key, Score

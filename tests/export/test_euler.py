@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from azee.export.euler import EulerZXY
+from azee.export.formats.euler import EulerZXY
 
 ANGLES = st.floats(-7, 7) | st.sampled_from([k * np.pi / 2 for k in range(-3, 4)])
 NEAR_LOCK = st.floats(-1e-5, 1e-5).map(lambda e: np.pi / 2 + e)

@@ -15,16 +15,16 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from azee.cli.main import run
+from azee.clip.clip import Clip, Label
 from azee.clips import save_clip
-from azee.export.camerawork import cameras
-from azee.export.film import write_film
-from azee.export.picture import projected
-from azee.export.scene import Look, Scene
-from azee.export.shots import SHOTS
-from azee.export.still import resting_times
-from azee.export.strip import Strip
-from azee.export.typeface import typeface
-from azee.motion.clip import Clip, Label
+from azee.export.pictures.camera import projected
+from azee.export.pictures.camerawork import cameras
+from azee.export.pictures.film import write_film
+from azee.export.pictures.scene import Look, Scene
+from azee.export.pictures.shots import SHOTS
+from azee.export.pictures.still import resting_times
+from azee.export.pictures.strip import Strip
+from azee.export.pictures.typeface import typeface
 from azee_rig.rig import Rig
 
 Pixels = NDArray[np.uint8]

@@ -16,8 +16,8 @@ from PIL import Image
 from programs import Node
 from small_rig import SMALL, tumbling
 
-from azee.export.glb import write_glb
-from azee.motion.clip import Clip, Label
+from azee.clip.clip import Clip, Label
+from azee.export.formats.glb import write_glb
 from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Rig
 from azee_rig.skin import skin

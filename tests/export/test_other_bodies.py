@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from programs import Node
 
-from azee.export.glb import write_glb
-from azee.motion.clip import Clip
+from azee.clip.clip import Clip
+from azee.export.formats.glb import write_glb
 from azee_rig.load import load_rig, shipped_rigs
 
 POSTURES = 10

@@ -13,13 +13,13 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from azee.cli.main import run
-from azee.export.score_drawing import score_drawing
+from azee.export.pictures.score_drawing import score_drawing
+from azee.export.pictures.score_png import score_image
+from azee.export.pictures.score_svg import draw
+from azee.export.pictures.shapes import Rect, Told
 from azee.export.score_layout import Box, boundaries, flattened, lanes, nested
-from azee.export.score_png import score_image
-from azee.export.score_svg import draw
-from azee.export.shapes import Rect, Told
 from azee.export.track_rows import track_rows
-from azee.motion.tracks import Track
+from azee.motion.tasks.tracks import Track
 from azee.score.interval import Interval
 from azee.score.score import Arrangement, Blank, Block, Call, Group, Hold, Key, Score, leaves
 from azee_solver.constraint import BoneAxis, Orient, Place, Relation

@@ -12,8 +12,8 @@ from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 from PIL import Image
 
-from azee.export.storyboard import MOST, SAME_RAD, SIZE, VIEWS, telling, write_png
-from azee.motion.clip import Clip
+from azee.clip.clip import Clip
+from azee.export.pictures.storyboard import MOST, SAME_RAD, SIZE, VIEWS, telling, write_png
 from azee_rig.rig import Rig
 
 

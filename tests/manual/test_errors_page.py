@@ -16,10 +16,10 @@ from diagnostic_codes import UnknownCodeError, codes, codes_in
 from pages import Block, blocks, page, pairs
 
 from azee.cli.main import run
+from azee.clip.archive import write_clip
+from azee.clip.clip import Clip
 from azee.compilation import lacks
 from azee.lang.program import load
-from azee.motion.clip import Clip
-from azee.motion.clip_file import write_clip
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.render import render
 from azee_grammar.source import Source

@@ -10,8 +10,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from azee.motion.animate import Animation, animate
-from azee.motion.report import ConstraintResult
+from azee.animation import Animation, animate
+from azee.quality.motion_report import ConstraintResult
 from azee.score.interval import Interval
 from azee.score.score import Block, Call, Group, Hold, Key, Score
 from azee_rig.load import load_rig

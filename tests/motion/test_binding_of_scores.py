@@ -9,12 +9,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from azee.motion.bound import Bound, BoundScore, bind
-from azee.motion.conflict import contradict
-from azee.motion.flatten import flatten
-from azee.motion.limbs import Limbs, channel_of_constraint
-from azee.motion.transpath import Travel, deferred, ends, passing_limbs, sample_times, travels
-from azee.motion.trill import oscillation
+from azee.motion.keys.transpath import Travel, deferred, ends, passing_limbs, sample_times, travels
+from azee.motion.overlay.trill import oscillation
+from azee.motion.tasks.conflict import contradict
+from azee.motion.tasks.flatten import flatten
+from azee.motion.tasks.limbs import Limbs, channel_of_constraint
+from azee.motion.tasks.timed_task import Bound, BoundScore, bind
 from azee.score.interval import Interval
 from azee.score.score import Block, Group, Hold, Key
 from azee_rig.load import load_rig

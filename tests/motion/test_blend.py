@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from azee.motion.blend import Blend, Concatenation, joined, repositioned
-from azee.motion.clip import Clip, Label
-from azee.motion.resample import sampled
+from azee.clip.blend import Blend, Concatenation, joined, repositioned
+from azee.clip.clip import Clip, Label
+from azee.clip.resample import sampled
 from azee_rig.load import load_rig
 
 Floats = NDArray[np.float64]

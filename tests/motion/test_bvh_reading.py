@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.export.bvh import write_bvh
-from azee.motion.bvh import BvhError, parse_bvh, read_bvh
-from azee.motion.clip import Clip
+from azee.clip.bvh import BvhError, parse_bvh, read_bvh
+from azee.clip.clip import Clip
+from azee.export.formats.bvh import write_bvh
 from azee_rig.rig import Rig
 
 FIGURE = """HIERARCHY

@@ -14,11 +14,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from azee.motion.blend import joined
-from azee.motion.clip import Clip, Label
-from azee.motion.clip_file import ClipFileError, read_clip, write_clip
-from azee.motion.edit import cut, left_handed, retimed, shifted
-from azee.motion.resample import at_rate, sampled
+from azee.clip.archive import ClipFileError, read_clip, write_clip
+from azee.clip.blend import joined
+from azee.clip.clip import Clip, Label
+from azee.clip.edit import cut, left_handed, retimed, shifted
+from azee.clip.resample import at_rate, sampled
 from azee_rig.load import load_rig
 from azee_rig.recover import recover
 from azee_rig.rig import Rig

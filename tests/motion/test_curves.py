@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from azee.motion.curves import (
+from azee.motion.curves.limb_curves import (
     GO_ON_S,
     LONGEST_S,
     SHORTEST_S,
@@ -15,8 +15,8 @@ from azee.motion.curves import (
     track,
     transition_s,
 )
-from azee.motion.limbs import Limbs
-from azee.motion.movement import Movement
+from azee.motion.curves.movement import Movement
+from azee.motion.tasks.limbs import Limbs
 from azee_rig.coordinates import Coordinates
 
 REST = np.zeros(2)

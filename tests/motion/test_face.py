@@ -3,9 +3,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from azee.motion.bound import Bound
-from azee.motion.face import Plateau, face_weights, weight_curve
-from azee.motion.requirement import Requirement
+from azee.motion.overlay.face import Plateau, face_weights, weight_curve
+from azee.motion.tasks.requirement import Requirement
+from azee.motion.tasks.timed_task import Bound
 from azee.score.interval import Interval
 from azee_solver.constraint import Morph
 from azee_solver.geometry import Side

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.motion.flatten import Keyframe, flatten
+from azee.motion.tasks.flatten import Keyframe, flatten
 from azee.score.interval import Interval
 from azee.score.score import Arrangement, Blank, Block, Call, Group, Hold, Key, Score, leaves
 from azee_solver.constraint import Look, Morph, Place, Transpath, Trill

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from azee.motion.animate import Animation, animate
-from azee.motion.posture import Origin, Search
-from azee.motion.transpath import deferred, travels
+from azee.animation import Animation, animate
+from azee.motion.keys.transpath import deferred, travels
+from azee.motion.tasks.posture import Origin, Search
 from azee.score.interval import Interval
 from azee.score.score import Block, Group, Hold, Key, Score
 from azee_rig.load import load_rig
@@ -344,9 +344,9 @@ def test_a_moving_point_is_sampled_on_its_way() -> None:
 
 
 def test_a_key_that_ends_one_path_is_solved_first_though_it_lies_on_another() -> None:
-    from azee.motion.bound import bind
-    from azee.motion.flatten import flatten
-    from azee.motion.limbs import Limbs
+    from azee.motion.tasks.flatten import flatten
+    from azee.motion.tasks.limbs import Limbs
+    from azee.motion.tasks.timed_task import bind
     from azee_solver.binding import Binding
 
     score = sync(

@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.motion.least_jerk import BULGE, through
-from azee.motion.spline import minimum_jerk
+from azee.clip.spline import minimum_jerk
+from azee.motion.curves.minimum_jerk import BULGE, through
 
 GAPS = st.lists(st.floats(0.05, 1), min_size=1, max_size=9)
 

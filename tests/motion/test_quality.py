@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from azee.motion.quality import peaks
+from azee.quality.measures import peaks
 
 
 def test_peaks_of_a_swing_are_those_of_its_derivatives() -> None:

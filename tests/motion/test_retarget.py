@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from azee.cli.main import run
-from azee.export.bvh import write_bvh
-from azee.motion.bvh import read_bvh
-from azee.motion.clip import Clip
-from azee.motion.measured import measure_clip, measure_recording
-from azee.motion.retarget import retarget
+from azee.clip.bvh import read_bvh
+from azee.clip.clip import Clip
+from azee.clip.retarget import retarget
+from azee.clip.retarget_source import measure_clip, measure_recording
+from azee.export.formats.bvh import write_bvh
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 

@@ -3,7 +3,7 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.motion.spans import Spans
+from azee.motion.tasks.spans import Spans
 from azee.score.interval import Interval
 
 times = st.integers(0, 12).map(lambda n: Fraction(n, 4))

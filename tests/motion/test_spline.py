@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.motion.spline import cubic_spline, minimum_jerk
+from azee.clip.spline import cubic_spline, minimum_jerk
 
 
 def test_minimum_jerk_is_at_rest_at_both_ends() -> None:

@@ -12,15 +12,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from azee.motion.bound import bind
-from azee.motion.clearance import Clearing
-from azee.motion.curves import LimbKey, LimbTrack
-from azee.motion.flatten import flatten
-from azee.motion.limbs import Limbs
-from azee.motion.movement import Movement
-from azee.motion.overlap import Overlaps
-from azee.motion.spans import Spans
-from azee.motion.swerve import Swerve
+from azee.motion.curves.avoidance import Clearing
+from azee.motion.curves.capsule_overlap import Overlaps
+from azee.motion.curves.limb_curves import LimbKey, LimbTrack
+from azee.motion.curves.movement import Movement
+from azee.motion.curves.via_points import Swerve
+from azee.motion.tasks.flatten import flatten
+from azee.motion.tasks.limbs import Limbs
+from azee.motion.tasks.spans import Spans
+from azee.motion.tasks.timed_task import bind
 from azee.score.interval import Interval
 from azee.score.score import Key
 from azee_rig.load import load_rig

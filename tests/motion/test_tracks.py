@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from azee.animation import Animation, animate
 from azee.lang.program import load
-from azee.motion.animate import Animation, animate
-from azee.motion.keying import MODES, Mode
-from azee.motion.limbs import Limbs
+from azee.motion.tasks.keying import MODES, Mode
+from azee.motion.tasks.limbs import Limbs
 from azee.score.score import Group
 from azee_grammar.files import read_source
 from azee_rig.load import load_rig

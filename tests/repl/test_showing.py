@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from azee.lang.program import evaluate_expression
-from azee.repl.commands import COMMANDS
+from azee.repl.commands import COMMANDS, answer
 from azee.repl.diagram import MOST_ROWS, diagram
 from azee.repl.ink import Ink, width, written
 from azee.repl.performer import Performer
@@ -132,9 +132,9 @@ def test_the_page_tells_of_every_command() -> None:
 
 
 def test_a_body_that_is_not_there_is_refused(repl: Repl, sheet: Sheet) -> None:
-    assert not repl.run("/rig nobody")
+    assert not answer(repl, "/rig nobody")
     assert "nobody" in sheet.taken()
-    assert repl.run("/rig")
+    assert answer(repl, "/rig")
     assert "signer: 44 bones" in sheet.taken()
 
 
@@ -146,29 +146,29 @@ def test_a_fault_of_ours_does_not_end_the_session(
 
     monkeypatch.setattr(repl.session, "enter", broken)
     with pytest.raises(ZeroDivisionError):
-        repl.run("1")
+        answer(repl, "1")
     repl.interactive = True
-    assert not repl.run("1")
+    assert not answer(repl, "1")
     assert "the session goes on" in sheet.taken()
 
 
 def test_rules_are_listed_searched_and_described(repl: Repl, sheet: Sheet) -> None:
-    assert repl.run('def kitten\n    \'meaning "a small chat"\n    :chat')
+    assert answer(repl, 'def kitten\n    \'meaning "a small chat"\n    :chat')
     sheet.taken()
-    assert repl.run("/rules CHAT")
+    assert answer(repl, "/rules CHAT")
     assert sheet.taken().splitlines()[:2] == ["here", "  :kitten  a small chat"]
-    assert repl.run("/doc :info-about")
+    assert answer(repl, "/doc :info-about")
     assert ":info-about 'topic 'info  rule" in sheet.taken()
-    assert not repl.run("/doc nothing-like-it")
+    assert not answer(repl, "/doc nothing-like-it")
     assert "nothing is called" in sheet.taken()
 
 
 def test_residuals_by_constraint(repl: Repl, sheet: Sheet) -> None:
-    assert not repl.run("/solve")
+    assert not answer(repl, "/solve")
     assert "there is no result yet" in sheet.taken()
-    repl.run("key .2 (cstr (place @I_TIP(s) @CH) (place @I_TIP(w) (point 0 9 0)))")
+    answer(repl, "key .2 (cstr (place @I_TIP(s) @CH) (place @I_TIP(w) (point 0 9 0)))")
     sheet.taken()
-    assert repl.run("/solve")
+    assert answer(repl, "/solve")
     table = sheet.taken().splitlines()
     assert table[0].split() == ["seconds", "block", "constraint", "off", "by", "of"]
     assert [line[-1] for line in table if line.startswith("0.00")] == ["✓", "✗"]
@@ -178,29 +178,29 @@ def test_residuals_by_constraint(repl: Repl, sheet: Sheet) -> None:
 def test_what_was_typed_is_saved_as_a_file_that_gives_the_same(
     repl: Repl, sheet: Sheet, tmp_path: Path
 ) -> None:
-    repl.run('def half\n    \'meaning "a half"\n    .5')
-    repl.run("key half() (look ^fwd)")
-    assert repl.run(f"/save {tmp_path / 'mine.azee'}")
+    answer(repl, 'def half\n    \'meaning "a half"\n    .5')
+    answer(repl, "key half() (look ^fwd)")
+    assert answer(repl, f"/save {tmp_path / 'mine.azee'}")
     assert (tmp_path / "mine.azee").read_text(encoding="utf-8") == (
         'def half\n    \'meaning "a half"\n    .5\n\nkey half() (look ^fwd)\n'
     )
-    repl.run("^_")
-    assert not repl.run(f"/save {tmp_path / 'other.azee'}")
-    assert not repl.run(f"/save {tmp_path / 'mine.doc'}")
-    repl.run("key .5 (look ^fwd)")
-    assert not repl.run(f"/save {tmp_path / 'nowhere' / 'mine.azee'}")
+    answer(repl, "^_")
+    assert not answer(repl, f"/save {tmp_path / 'other.azee'}")
+    assert not answer(repl, f"/save {tmp_path / 'mine.doc'}")
+    answer(repl, "key .5 (look ^fwd)")
+    assert not answer(repl, f"/save {tmp_path / 'nowhere' / 'mine.azee'}")
     assert "cannot-write" in sheet.taken()
 
 
 def test_pictures_of_the_score_and_of_a_posture(repl: Repl, sheet: Sheet, tmp_path: Path) -> None:
-    repl.run(SYNC)
+    answer(repl, SYNC)
     for name in ("score.png", "score.svg"):
-        assert repl.run(f"/score {tmp_path / name}")
-    assert repl.run(f"/render {tmp_path / 'posture.png'} .5 face")
+        assert answer(repl, f"/score {tmp_path / name}")
+    assert answer(repl, f"/render {tmp_path / 'posture.png'} .5 face")
     with Image.open(tmp_path / "score.png") as score:
         assert score.width > score.height
         assert len(score.getcolors(100_000) or ()) > 20
     with Image.open(tmp_path / "posture.png") as posture:
         assert posture.size == (720, 900)
-    assert not repl.run(f"/render {tmp_path / 'posture.png'} .5 above")
+    assert not answer(repl, f"/render {tmp_path / 'posture.png'} .5 above")
     assert "there is no view `above`" in sheet.taken()

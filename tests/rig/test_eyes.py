@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from azee.export.picture import from_direction, projected
-from azee.export.raster import fill
+from azee.export.pictures.camera import from_direction, projected
+from azee.export.pictures.raster import fill
 from azee_rig.rig import Rig
 
 SIZE = (520, 240)

@@ -12,8 +12,8 @@ import pytest
 from glb_file import GlbFile
 
 from azee.cli.main import run
-from azee.export.glb import write_glb
-from azee.motion.clip import Clip
+from azee.clip.clip import Clip
+from azee.export.formats.glb import write_glb
 from azee_rig.importing.bone_map import BONES
 from azee_rig.importing.fault import BodyError
 from azee_rig.importing.importer import import_body, propose_bones

@@ -5,7 +5,8 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from azee.export.picture import VIEWS, Camera, camera, contact_sheet, picture, render
+from azee.export.pictures.camera import VIEWS, Camera, camera
+from azee.export.pictures.picture import contact_sheet, picture, render
 from azee_rig.mesh import BodyMesh, Part
 from azee_rig.rig import Rig
 

@@ -1,0 +1,151 @@
+"""Clips on disk: a NumPy archive that holds numbers and names and can hold nothing else.
+
+`coordinates` are stored with their names, so that a clip outlives a change of their order.
+docs/formats.md describes the file.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import struct
+import zipfile
+import zlib
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.clip.clip import Clip, Label
+from azee_rig.rig import Rig
+
+FORMAT, VERSION = "azee-clip-npz", 1
+_ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
+
+UNREADABLE = (
+    ValueError,
+    KeyError,
+    TypeError,
+    EOFError,
+    MemoryError,
+    RuntimeError,
+    zipfile.BadZipFile,
+    zlib.error,
+    struct.error,
+)
+"""What NumPy and zipfile raise over a file that is no archive, or a broken one."""
+
+
+class ClipFileError(ValueError):
+    """A file that is no clip, is damaged, or is one of a body that has other coordinates."""
+
+
+class OtherBodyError(ClipFileError):
+    """A clip moves what the body that is to play it does not have."""
+
+
+def write_clip(clip: Clip, rig: Rig, file: IO[bytes]) -> None:
+    """Write a clip; the same clip gives the same bytes, on any day."""
+    header = {
+        "format": FORMAT,
+        "version": VERSION,
+        "rig": rig.name,
+        "coordinates": list(rig.coordinates.names),
+        "units": list(clip.units),
+        "labels": [[list(x.path), x.start_s, x.end_s] for x in clip.labels],
+    }
+    text = json.dumps(header, ensure_ascii=False, allow_nan=False).encode()
+    arrays: dict[str, NDArray[Any]] = {
+        "header": np.frombuffer(text, dtype=np.uint8),
+        "times": clip.times,
+        "coordinates": clip.coordinates,
+        "unit_weights": clip.unit_weights,
+    }
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, array in arrays.items():
+            data = io.BytesIO()
+            np.lib.format.write_array(data, array, allow_pickle=False)
+            entry = zipfile.ZipInfo(f"{name}.npy", _ZIP_EPOCH)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, data.getvalue())
+
+
+def read_clip(path: str | Path, rig: Rig) -> Clip:
+    """Read a clip for a body; coordinates that the file does not name rest.
+
+    Raises: ClipFileError: what is there is no clip, or none for this body. OSError.
+    """
+    header, arrays = _read(path)
+    try:
+        names, stored = header["coordinates"], arrays["coordinates"]
+        foreign = [name for name in names if name not in rig.coordinates.index]
+        if foreign:
+            raise OtherBodyError(
+                f"`{path}` moves `{foreign[0]}`, which the rig `{rig.name}` does not have"
+            )
+        q = np.tile(rig.coordinates.idle, (len(stored), 1))
+        q[:, [rig.coordinates.index[name] for name in names]] = stored
+        missing = [unit for unit in header["units"] if unit not in rig.units]
+        if missing:
+            raise OtherBodyError(
+                f"`{path}` moves the face unit `{missing[0]}`, which the rig `{rig.name}` "
+                "does not have"
+            )
+        if not all(np.isfinite(a).all() for a in (arrays["times"], q, arrays["unit_weights"])):
+            raise ClipFileError(f"`{path}` holds numbers that are none")
+        return Clip(
+            arrays["times"],
+            np.clip(q, rig.coordinates.lower, rig.coordinates.upper),
+            tuple(header["units"]),
+            arrays["unit_weights"],
+            tuple(_label(*stored) for stored in header["labels"]),
+        )
+    except ClipFileError:
+        raise
+    except (KeyError, TypeError, ValueError, IndexError) as error:
+        raise ClipFileError(f"`{path}` is a damaged clip") from error
+
+
+def _label(path: list[str], start_s: float, end_s: float) -> Label:
+    """Return a stored label. Raises: ValueError: it is none."""
+    named = path and all(isinstance(name, str) for name in path)
+    if not (named and math.isfinite(start_s) and start_s <= end_s < math.inf):
+        raise ValueError("a label without a name or a time")
+    return Label(tuple(path), float(start_s), float(end_s))
+
+
+def rig_of(path: str | Path) -> str:
+    """Name of the rig that a clip was made for. Raises: ClipFileError, OSError."""
+    return str(_read(path)[0].get("rig", ""))
+
+
+def _read(path: str | Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return header and arrays of a file that says it is a clip.
+
+    A plain .npy is no context manager and none of ours: its TypeError is one of `UNREADABLE`.
+    """
+    try:
+        with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as packed:
+            if "header" not in packed:
+                raise ClipFileError(f"`{path}` is not a clip that azee wrote")
+            header = json.loads(packed["header"].tobytes())
+            if not isinstance(header, dict) or header.get("format") != FORMAT:
+                raise ClipFileError(f"`{path}` is not a clip that azee wrote")
+            if header.get("version") != VERSION:
+                raise ClipFileError(
+                    f"`{path}` is a clip of version {header.get('version')}; "
+                    f"this azee reads version {VERSION}"
+                )
+            names = ("times", "coordinates", "unit_weights")
+            arrays = {name: packed[name] for name in names}
+            if any(array.dtype.kind not in "fiu" for array in arrays.values()):
+                raise ClipFileError(f"`{path}` holds numbers that are none")
+            return header, {name: np.asarray(arrays[name], dtype=np.float64) for name in names}
+    except ClipFileError:
+        raise
+    except OSError:
+        raise
+    except UNREADABLE as error:
+        raise ClipFileError(f"`{path}` is not a clip that azee wrote, or is damaged") from error

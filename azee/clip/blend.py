@@ -1,0 +1,183 @@
+"""Clips one after the other, the decay of each blended with the attack of the next.
+
+Gürel 2010, §4.1.3: signs S₁ … Sₘ of durations D₁ … Dₘ begin and end with an attack and a decay of
+one length a, in which nothing is said. Sign n + 1 starts when the decay of sign n does, at
+
+    E′ₙ = Σᵢ₌₁ⁿ (Dᵢ − a)
+
+and in between the two are averaged on the vector of parameters, with weights that sum to 1:
+
+    T′(t) = (E′ₙ + a − t)/a · Sₙ(t − E′ₙ₋₁) + (t − E′ₙ)/a · Sₙ₊₁(t − E′ₙ),  E′ₙ < t < E′ₙ + a
+
+The thesis prints E′ₙ without brackets. With a taken off once only, T′ would ask every sign but
+the first for what lies up to a beyond its end; so the sum is over Dᵢ − a.
+
+`linear` is T′ exactly; its speed jumps at both ends of a blend, which makes a signer look as if she
+had changed her mind (§5.1.3). `smooth` puts minimum jerk in the place of the linear weight: its
+first and second derivatives are zero at both ends, so that T′ is C² wherever the signs are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from azee.clip.clip import Clip
+from azee.clip.edit import shifted
+from azee.clip.resample import rate, sampled
+from azee.clip.spline import minimum_jerk
+from azee_rig.coordinates import Coordinates
+
+Array = NDArray[np.float64]
+Blend = Literal["linear", "smooth"]
+
+ROOT = 6
+"""Parameters of a root joint: its place and its turn."""
+
+
+def repositioned(parameters: ArrayLike) -> Array:
+    """Return motion (…, P) with its first six parameters zero: the root's place and turn.
+
+    So the signer stands at the origin, faces +Z, and does not float while signs are blended; what
+    the limbs do stays (Gürel 2010, §3.2.3). A `Clip` has no root and needs it not.
+    """
+    out = np.array(parameters, dtype=np.float64)
+    out[..., :ROOT] = 0.0
+    return out
+
+
+@dataclass(frozen=True, eq=False)
+class Concatenation:
+    """T′(t) of some clips: a movement that can be sampled at any time from 0 to `duration_s`.
+
+    clips: at least one; all count their time from 0. overlap_s: a, the length of attacks and
+    decays; 0 sets the clips end to end.
+    """
+
+    clips: tuple[Clip, ...]
+    coordinates: Coordinates
+    overlap_s: float = 0.0
+    blend: Blend = "smooth"
+
+    def __post_init__(self) -> None:
+        if not self.clips:
+            raise ValueError("there is no clip to join")
+        if not (np.isfinite(self.overlap_s) and self.overlap_s >= 0.0):
+            raise ValueError(f"clips cannot overlap by {self.overlap_s:g} s")
+        if self.blend not in ("linear", "smooth"):
+            raise ValueError(f"there is no blend '{self.blend}'; there are: linear, smooth")
+        for n, clip in enumerate(self.clips):
+            blends = (n > 0) + (n < len(self.clips) - 1)
+            needed = blends * self.overlap_s
+            if clip.duration_s < needed * (1.0 - 1e-12):
+                raise ValueError(
+                    f"clip {n + 1} lasts {clip.duration_s:g} s, less than the {needed:g} s "
+                    "in which it is blended with its neighbours"
+                )
+        at_zero = tuple(shifted(clip, -float(clip.times[0])) for clip in self.clips)
+        object.__setattr__(self, "clips", at_zero)
+
+    @property
+    def starts_s(self) -> tuple[float, ...]:
+        """When each clip starts: 0, E′₁, …, E′ₘ₋₁."""
+        lengths = [clip.duration_s - self.overlap_s for clip in self.clips[:-1]]
+        return tuple(float(e) for e in np.cumsum([0.0, *lengths]))
+
+    @property
+    def duration_s(self) -> float:
+        """When the last clip ends: E′ₘ + a."""
+        return self.starts_s[-1] + self.clips[-1].duration_s
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """All face units that any of the clips moves."""
+        return tuple(dict.fromkeys(unit for clip in self.clips for unit in clip.units))
+
+    def sample(self, times: ArrayLike) -> Array:
+        """Return T′ at increasing times (T,): coordinates and weights of `units`, (T, V + M)."""
+        t = np.asarray(times, dtype=np.float64)
+        out = np.zeros((len(t), len(self.coordinates) + len(self.units)))
+        starts = self.starts_s
+        for n, (clip, start) in enumerate(zip(self.clips, starts, strict=True)):
+            weight = np.ones_like(t)
+            if n > 0:
+                weight = self._weight(t - start)
+            if n < len(self.clips) - 1:
+                weight = weight - self._weight(t - starts[n + 1])
+            used = weight != 0.0
+            if used.any():
+                out[used] += weight[used, None] * self._parameters(clip, t[used] - start)
+        return out
+
+    def clip(self, times: ArrayLike) -> Clip:
+        """Return T′ as a clip with frames at some times; labels keep their clips' own times."""
+        split = len(self.coordinates)
+        values = self.sample(times)
+        found = [
+            label
+            for clip, start in zip(self.clips, self.starts_s, strict=True)
+            for label in shifted(clip, start).labels
+        ]
+        return Clip(
+            np.asarray(times, dtype=np.float64),
+            np.clip(values[:, :split], self.coordinates.lower, self.coordinates.upper),
+            self.units,
+            values[:, split:],
+            tuple(sorted(found, key=lambda x: (x.start_s, x.depth))),
+        )
+
+    def _weight(self, since: Array) -> Array:
+        """Weight of a clip so many seconds after its start, before its own decay; 1 from a on."""
+        if self.overlap_s == 0.0:
+            return np.where(since >= 0.0, 1.0, 0.0)
+        share = np.clip(since / self.overlap_s, 0.0, 1.0)
+        return share if self.blend == "linear" else minimum_jerk(share)
+
+    def _parameters(self, clip: Clip, times: Array) -> Array:
+        """Return Sₙ at some times, (T, V + M)."""
+        found = sampled(clip, times, self.coordinates)
+        weights = np.zeros((len(times), len(self.units)))
+        weights[:, [self.units.index(unit) for unit in clip.units]] = found.unit_weights
+        return np.hstack([found.coordinates, weights])
+
+
+def joined(
+    clips: Sequence[Clip],
+    coordinates: Coordinates,
+    *,
+    overlap_s: float = 0.0,
+    blend: Blend = "smooth",
+    fps: float | None = None,
+) -> Clip:
+    """Return clips as one, from 0 on.
+
+    Args: fps: of the result; by default the frames are those that the clips have, and where two
+        overlap those of both.
+    Raises: ValueError: nothing to join, or a clip is shorter than its blends.
+    """
+    whole = Concatenation(tuple(clips), coordinates, overlap_s, blend)
+    if fps is not None:
+        count = int(np.floor(whole.duration_s * fps + 1e-6)) + 1
+        return whole.clip(np.arange(count) / fps)
+    starts = zip(whole.clips, whole.starts_s, strict=True)
+    times = np.concatenate([clip.times + start for clip, start in starts])
+    return whole.clip(_apart(np.sort(times)))
+
+
+def common_rate(clips: Sequence[Clip]) -> float | None:
+    """Frames per second that all clips have, None if they differ or none has any."""
+    rates = [rate(clip) for clip in clips if len(clip.times) > 1]
+    if not rates or any(r is None for r in rates):
+        return None
+    known = [r for r in rates if r is not None]
+    return known[0] if all(abs(a - b) < 1e-3 for a, b in pairwise(known)) else None
+
+
+def _apart(times: Array) -> Array:
+    """Leave out times that a rounding error alone tells from the one before."""
+    return np.asarray(times[np.r_[True, np.diff(times) > 1e-9]])

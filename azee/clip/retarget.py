@@ -1,0 +1,260 @@
+"""Motion of one body on another: hands where they were, palms as they were turned.
+
+Angles do not carry over between bodies: arms of other lengths miss what they touched. What is kept
+here is measured on the source, in the frame of its chest: where the wrists are from the middle of
+the shoulders, in arm lengths, so that hands that met still meet; how the palms are turned; roughly
+where the elbows are; how every finger bends. Trunk, neck and head turn as the source's do.
+
+Postures of all frames are found together by damped Gauss–Newton inside the limits, first each for
+itself, then held to the smoothed way of the first: what leaves a choice does not jump.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.clip.clip import Clip
+from azee.clip.retarget_source import SIDES, Measured
+from azee_rig.chain import Chain, Frames
+from azee_rig.rig import Rig
+from azee_rig.rotation import rotation_vectors
+
+Floats = NDArray[np.float64]
+
+ARM = (
+    "clav_{S}.elevation", "clav_{S}.protraction", "arm_{S}.flexion", "arm_{S}.abduction",
+    "arm_{S}.rotation", "f_arm_{S}.flexion", "f_arm_{S}.pronation", "palm_{S}.flexion",
+    "palm_{S}.deviation",
+)  # fmt: skip
+"""Coordinates of an arm."""
+WRIST_M, PALM_RAD, ELBOW_M, WISH_RAD = 0.004, np.radians(1.0), 0.15, np.radians(60.0)
+"""What weighs as much as each other: off in place, in turn, at the elbow, from the wish."""
+HASTE_RAD = np.radians(1.0)
+"""A turn from one frame to the next that weighs as much, where there is a choice of ways."""
+PRONATION = ARM.index("f_arm_{S}.pronation")
+KEPT_SHARE, KEPT_OFF_RAD = 0.03, np.radians(5.0)
+"""Up to here, in arm lengths and radians, hands count as where they were."""
+SWEEPS, STEP_RAD = 40, 1e-6
+FASTEST_RAD_S = 25.0
+"""Faster turns, 1,430°/s, are jumps: about the largest measured of an elbow (docs/motion.md)."""
+SMOOTH_S = 0.15
+"""Half the window over which the way of the first solution is smoothed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Retargeted:
+    """A clip on the new body, and what could not be kept, per frame and side (L, R).
+
+    wrist_m: (T, 2) metres off on the new body. palm_rad: (T, 2) turn of the palm that is off.
+    """
+
+    clip: Clip
+    wrist_m: Floats
+    palm_rad: Floats
+
+    def kept(self, body: Rig) -> str:
+        """Tell in how many frames hands are where they were, and how far they are off in others."""
+        share = self.wrist_m / body.landmarks.arm_m
+        off = (share > KEPT_SHARE) | (self.palm_rad > KEPT_OFF_RAD)
+        frames = int(off.any(axis=1).sum())
+        if not frames:
+            return f"hands are where they were in all {len(off)} frames"
+        return (
+            f"hands are where they were in {len(off) - frames} of {len(off)} frames; in the others "
+            f"the body does not reach: up to {100 * float(share.max()):.0f} % of its arm's length "
+            f"and {np.degrees(float(self.palm_rad.max())):.0f}° off"
+        )
+
+
+def retarget(source: Measured, rig: Rig) -> Retargeted:
+    """Play measured motion on a body."""
+    q = np.tile(rig.coordinates.idle, (len(source.times), 1))
+    for name, values in source.coordinates.items():
+        if name in rig.coordinates.index:
+            q[:, rig.coordinates.index[name]] = values
+    q = np.clip(q, rig.coordinates.lower, rig.coordinates.upper)
+    fit = _Arms(rig, source, q)
+    first = fit.solved(q, q)
+    wish = _smoothed(first, source.times)
+    found = fit.steadiest([fit.solved(start, wish) for start in fit.starts(wish)], wish)
+    found = _eased(found, source.times)
+    wrist, palm = fit.off(found)
+    names, weights = source.units
+    known = [i for i, name in enumerate(names) if name in rig.units]
+    units = tuple(names[i] for i in known)
+    clip = Clip(source.times, found, units, weights[:, known], source.labels)
+    return Retargeted(clip, wrist, palm)
+
+
+class _Arms:
+    """Wishes for both arms of a body, in all frames."""
+
+    def __init__(self, rig: Rig, source: Measured, q: Floats) -> None:
+        self.rig = rig
+        c = rig.coordinates
+        self.columns = np.array([[c.index[n.format(S=s)] for n in ARM] for s in SIDES])
+        self.palms = [rig.bones[f"palm_{s}"].node for s in SIDES]
+        self.chain, number = _only(rig.chain, self.palms)
+        self.palms = [number[node] for node in self.palms]
+        self.nodes = {
+            bone: [number[rig.bones[f"{bone}_{s}"].origin_node] for s in SIDES]
+            for bone in ("f_arm", "palm")
+        }
+        chest = rig.bones["back_2"].node
+        still = rig.chain.frames(c.idle)
+        middle = still.rotations[chest].T @ (rig.landmarks.shoulder_middle - still.positions[chest])
+        at = rig.chain.frames(q)
+        R, origin = at.rotations[:, chest], at.positions[:, chest]
+        origin = origin + R @ middle
+        size = rig.landmarks.arm_m / source.arm_m
+
+        def place(points: Floats) -> Floats:
+            return np.asarray(origin[:, None] + size * np.einsum("tab,tsb->tsa", R, points))
+
+        self.wrists, self.elbows = place(source.wrists), place(source.elbows)
+        self.turns = np.einsum("tab,tsbc->tsac", R, source.palms)
+
+    def solved(self, start: Floats, wish: Floats) -> Floats:
+        """Postures (T, V) that come nearest, from others; what is free stays near the wish."""
+        c = self.rig.coordinates
+        q = start.copy()
+        cost, r = self._residual(q, wish)
+        damping = np.full((len(q), 2), 1e-2)
+        for _ in range(SWEEPS):
+            J = self._jacobian(q, wish, r)
+            JT = np.swapaxes(J, -1, -2)
+            normal = JT @ J + damping[..., None, None] * np.eye(len(ARM))
+            step = -np.linalg.solve(normal, JT @ r[..., None])[..., 0]
+            tried = q.copy()
+            for s, columns in enumerate(self.columns):
+                moved = q[:, columns] + np.clip(step[:, s], -0.5, 0.5)
+                tried[:, columns] = np.clip(moved, c.lower[columns], c.upper[columns])
+            after, r_after = self._residual(tried, wish)
+            better = after < cost
+            for s, columns in enumerate(self.columns):
+                rows = np.flatnonzero(better[:, s])
+                q[rows[:, None], columns] = tried[rows[:, None], columns]
+            done = np.abs(cost - after)[better].max(initial=0.0) < 1e-6
+            r = np.where(better[..., None], r_after, r)
+            cost = np.where(better, after, cost)
+            damping = np.where(better, damping * 0.3, damping * 5.0).clip(1e-8, 1e8)
+            if done and not (~better & (damping < 1e4)).any():
+                break
+        return q
+
+    def starts(self, q: Floats) -> list[Floats]:
+        """Postures (T, V) to start from: those given, and forearms turned out and in.
+
+        Where a palm is turned further than the forearm goes, both its limits are as good.
+        """
+        c = self.rig.coordinates
+        found = [q]
+        for share in (0.2, 0.8):
+            turned = q.copy()
+            for columns in self.columns:
+                v = columns[PRONATION]
+                turned[:, v] = c.lower[v] + share * (c.upper[v] - c.lower[v])
+            found.append(turned)
+        return found
+
+    def steadiest(self, ways: Sequence[Floats], wish: Floats) -> Floats:
+        """Of several ways (T, V), per arm, the one with the least sum of misses and haste.
+
+        It may change between them where they are near each other: a shortest path over frames.
+        """
+        out = ways[0].copy()
+        cost = np.stack([self._residual(q, wish)[0] for q in ways])
+        for s, columns in enumerate(self.columns):
+            q = np.stack([way[:, columns] for way in ways])
+            best = cost[:, :, s].copy()
+            came = np.zeros(best.shape, np.int64)
+            for t in range(1, best.shape[1]):
+                haste = ((q[:, None, t - 1] - q[None, :, t]) / HASTE_RAD) ** 2
+                total = best[:, None, t - 1] + haste.sum(axis=-1)
+                came[:, t] = total.argmin(axis=0)
+                best[:, t] += total.min(axis=0)
+            way = int(best[:, -1].argmin())
+            for t in range(best.shape[1] - 1, -1, -1):
+                out[t, columns] = q[way, t]
+                way = int(came[way, t])
+        return out
+
+    def off(self, q: Floats) -> tuple[Floats, Floats]:
+        """How far wrists and palms are off, (T, 2) each."""
+        at = self.chain.frames(q)
+        wrists = at.positions[:, self.nodes["palm"]] - self.wrists
+        return np.linalg.norm(wrists, axis=-1), np.linalg.norm(self._turned(at), axis=-1)
+
+    def _turned(self, at: Frames) -> Floats:
+        """Rotation vectors from the palms as they are to as they should be, (…, 2, 3)."""
+        R = self.turns @ np.swapaxes(at.rotations[..., self.palms, :, :], -1, -2)
+        return rotation_vectors(R)
+
+    def _residual(self, q: Floats, wish: Floats) -> tuple[Floats, Floats]:
+        """Return sums of squares (…, T, 2), and what they sum, (…, T, 2, 18)."""
+        at = self.chain.frames(q)
+        parts = [
+            (at.positions[..., self.nodes["palm"], :] - self.wrists) / WRIST_M,
+            self._turned(at) / PALM_RAD,
+            (at.positions[..., self.nodes["f_arm"], :] - self.elbows) / ELBOW_M,
+            (q[..., self.columns] - wish[:, self.columns]) / WISH_RAD,
+        ]
+        r = np.concatenate(parts, axis=-1)
+        return np.asarray((r**2).sum(axis=-1)), r
+
+    def _jacobian(self, q: Floats, wish: Floats, r: Floats) -> Floats:
+        moved = np.tile(q, (len(ARM), 1, 1))
+        for k in range(len(ARM)):
+            moved[k][:, self.columns[:, k]] += STEP_RAD
+        change = (self._residual(moved, wish)[1] - r) / STEP_RAD
+        return np.moveaxis(change, 0, -1)
+
+
+def _only(chain: Chain, wanted: Sequence[int]) -> tuple[Chain, dict[int, int]]:
+    """Return the part of a chain that carries some nodes, and the nodes' numbers in it."""
+    kept = set(wanted)
+    for node in range(len(chain.names) - 1, -1, -1):
+        if node in kept and chain.parents[node] >= 0:
+            kept.add(int(chain.parents[node]))
+    order = sorted(kept)
+    number = {node: i for i, node in enumerate(order)}
+    runs = [np.arange(chain.dof_start[n], chain.dof_start[n + 1]) for n in order]
+    dofs = np.concatenate(runs)
+    part = Chain(
+        names=tuple(chain.names[n] for n in order),
+        parents=np.array([number.get(int(chain.parents[n]), -1) for n in order]),
+        offsets=chain.offsets[order],
+        zero=chain.zero[order],
+        dof_start=np.cumsum([0, *(len(run) for run in runs)]),
+        dof_axis=chain.dof_axis[dofs],
+        dof_scale=chain.dof_scale[dofs],
+        dof_coordinate=chain.dof_coordinate[dofs],
+    )
+    return part, number
+
+
+def _eased(q: Floats, times: Floats) -> Floats:
+    """Spread over some frames what no joint does in one, such as a forearm from limit to limit."""
+    if len(times) < 3:
+        return q
+    step = float(times[1] - times[0])
+    half = max(1, int(SMOOTH_S / step))
+    fast = np.abs(np.diff(q, axis=0, prepend=q[:1])) > FASTEST_RAD_S * step
+    near = np.stack([np.convolve(f, np.ones(2 * half + 1), mode="same") > 0 for f in fast.T], 1)
+    share = _smoothed(near.astype(np.float64), times)
+    return np.asarray(q + share * (_smoothed(q, times) - q))
+
+
+def _smoothed(q: Floats, times: Floats) -> Floats:
+    """Means over a window of time that is the narrower the nearer to an end, (T, V)."""
+    if len(times) < 3:
+        return q
+    half = max(1, int(SMOOTH_S / float(times[1] - times[0])))
+    sums = np.cumsum(np.vstack([np.zeros(q.shape[1]), q]), axis=0)
+    n = np.arange(len(q))
+    reach = np.minimum(np.minimum(n, len(q) - 1 - n), half)
+    return np.asarray((sums[n + reach + 1] - sums[n - reach]) / (2 * reach + 1)[:, None])

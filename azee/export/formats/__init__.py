@@ -1,0 +1,1 @@
+"""Formats of movement and of scores that other programs open."""

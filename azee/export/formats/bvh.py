@@ -1,0 +1,118 @@
+"""A clip as BVH, after the format's description and conventions in Gürel 2010, appendix B.
+
+One skeleton; tabs; the root has six channels, every other joint three, rotations in the order Z,
+X, Y; angles in degrees, lengths in centimetres, as motion-capture tools expect. The root's OFFSET
+is zero and its position channels are absolute: readers disagree on whether an offset is to be
+added to the channels or replaced by them, and zero is the one value that all read alike.
+
+Names keep to the letters, digits and underscores of the appendix' grammar. Morph weights have no
+place in the format.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.clip.clip import Clip
+from azee.export.files import replace_file
+from azee.export.formats.euler import EulerZXY
+from azee_rig.rig import Rig
+from azee_rig.skeleton import Skeleton
+
+CENTIMETRES = 100.0
+POSITIONS = "Xposition Yposition Zposition"
+ROTATIONS = "Zrotation Xrotation Yrotation"
+TIP = 0.75
+"""Length of a last bone, which a skeleton of joints does not know, as a share of the one before:
+about what distal phalanges are to middle ones."""
+ONE_FRAME_S = 1 / 30
+"""Frame time of a still."""
+
+
+def write_bvh(clip: Clip, rig: Rig, path: str | Path) -> None:
+    """Write a clip's skeleton and joint rotations, one line a frame.
+
+    Raises: OSError: the file cannot be written. ValueError: the clip's frames are not evenly
+        spaced, or the skeleton has more than one root.
+    """
+    skeleton, pose = rig.skeleton, rig.pose(clip.coordinates)
+    below = _children(skeleton)
+    names = _names(skeleton)
+    order = list(_depth_first(0, below))
+    if len(order) != len(skeleton.names):
+        raise ValueError("a BVH file holds one skeleton, with one root")
+    root = skeleton.offsets[0] + np.broadcast_to(pose.root_translation, (len(clip.times), 3))
+    angles = np.degrees(EulerZXY.from_quaternions(pose.rotations[:, order]).angles)
+    rows = np.hstack([root * CENTIMETRES, angles.reshape(len(angles), -1)])
+    lines = [
+        "HIERARCHY",
+        *_joint(skeleton, 0, names, below, 0),
+        "MOTION",
+        f"Frames: {len(rows)}",
+        f"Frame Time: {_frame_time(clip.times):.9g}",
+        *(_numbers(row) for row in rows),
+    ]
+    with replace_file(path) as file:
+        file.write(("\n".join(lines) + "\n").encode("ascii"))
+
+
+def _children(skeleton: Skeleton) -> list[list[int]]:
+    below: list[list[int]] = [[] for _ in skeleton.names]
+    for joint, parent in enumerate(skeleton.parents):
+        if parent >= 0:
+            below[parent].append(joint)
+    return below
+
+
+def _depth_first(joint: int, below: Sequence[Sequence[int]]) -> Iterator[int]:
+    """Yield joints in the order in which the hierarchy, and so each frame, lists them."""
+    yield joint
+    for child in below[joint]:
+        yield from _depth_first(child, below)
+
+
+def _names(skeleton: Skeleton) -> list[str]:
+    """Joint names of letters, digits and underscores, told apart where that makes two alike."""
+    names: list[str] = []
+    for name in skeleton.names:
+        plain = re.sub(r"[^A-Za-z0-9_]", "_", name)
+        names.append(plain if plain not in names else f"{plain}_{names.count(plain) + 1}")
+    return names
+
+
+def _joint(
+    skeleton: Skeleton, joint: int, names: list[str], below: list[list[int]], level: int
+) -> Iterator[str]:
+    tabs = "\t" * level
+    offset = skeleton.offsets[joint] if level else np.zeros(3)
+    yield f"{tabs}{'JOINT' if level else 'ROOT'} {names[joint]}"
+    yield f"{tabs}{{"
+    yield f"{tabs}\tOFFSET {_numbers(offset * CENTIMETRES)}"
+    yield f"{tabs}\tCHANNELS " + (f"3 {ROTATIONS}" if level else f"6 {POSITIONS} {ROTATIONS}")
+    for child in below[joint]:
+        yield from _joint(skeleton, child, names, below, level + 1)
+    if not below[joint]:
+        yield f"{tabs}\tEnd Site"
+        yield f"{tabs}\t{{"
+        yield f"{tabs}\t\tOFFSET {_numbers(skeleton.offsets[joint] * (TIP * CENTIMETRES))}"
+        yield f"{tabs}\t}}"
+    yield f"{tabs}}}"
+
+
+def _frame_time(times: NDArray[np.float64]) -> float:
+    if len(times) < 2:
+        return ONE_FRAME_S
+    step = float(times[-1] - times[0]) / (len(times) - 1)
+    if np.abs(np.diff(times) - step).max() > 1e-6:
+        raise ValueError("a BVH file has one frame time for all frames")
+    return step
+
+
+def _numbers(values: NDArray[np.float64]) -> str:
+    """Six decimals: a millionth of a degree, ten nanometres. Never a minus zero."""
+    return " ".join(f"{value:.6f}" for value in np.round(values, 6) + 0.0)

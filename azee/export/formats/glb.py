@@ -1,0 +1,43 @@
+"""A clip and its body as one GLB file (glTF 2.0): skinned mesh, morph targets, one animation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from azee.clip.clip import Clip
+from azee.export.files import replace_file
+from azee.export.formats.gltf.animation import add_animation
+from azee.export.formats.gltf.document import Document
+from azee.export.formats.gltf.mesh import add_mesh
+from azee.export.formats.gltf.skin import add_joints, add_skin
+from azee_rig.rig import Rig
+
+
+def write_glb(clip: Clip, rig: Rig, path: str | Path) -> None:
+    """Write a GLB that any glTF viewer plays.
+
+    Joints keep the rig's names and rest posture; morph targets are the rig's face units, by name;
+    the animation's extras hold the clip's labels. glTF's frame is ours: metres, Y up, the signer
+    looks along +Z.
+
+    Raises: OSError: the file cannot be written.
+    """
+    document = Document(generator="azee")
+    nodes = add_joints(document, rig.skeleton)
+    mesh = add_mesh(document, rig.mesh, rig.name)
+    skin = add_skin(document, rig.skeleton, nodes)
+    body = document.add("nodes", name=f"{rig.name}_mesh", mesh=mesh, skin=skin)
+    add_animation(
+        document,
+        clip,
+        rig.pose(clip.coordinates),
+        nodes,
+        rig.skeleton.offsets[0],
+        body,
+        rig.mesh.units,
+    )
+    parents = rig.skeleton.parents
+    roots = [node for node, parent in zip(nodes, parents, strict=True) if parent < 0]
+    scene = document.add("scenes", name=rig.name, nodes=[*roots, body])
+    with replace_file(path) as file:
+        file.write(document.to_glb(scene=scene))

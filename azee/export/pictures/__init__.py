@@ -1,0 +1,1 @@
+"""Pictures and films of a body, and drawings of scores."""

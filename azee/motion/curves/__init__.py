@@ -1,0 +1,1 @@
+"""The movement between key postures."""

@@ -1,0 +1,1 @@
+"""The postures that a movement passes through."""

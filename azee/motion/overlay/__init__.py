@@ -1,0 +1,1 @@
+"""What is laid on the movement: face, trills, breathing and blinking, labels."""

@@ -1,0 +1,143 @@
+"""Trills: small rapid oscillations laid on top of what the other constraints fix.
+
+Bones turn about the trill's axis by amplitude · sin 2πft, faded in and out inside the block and
+clamped to the limits. An axis means what it means to `rotate`: without bones or sites in it, it
+has the components x, dir and nrm of the parent bone's frame, otherwise it is a direction of the
+signer's frame. Where a bone's own joint cannot turn about the axis (a palm about its own length),
+the joint before it helps (the forearm turns).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.clip.spline import minimum_jerk
+from azee.motion.tasks.timed_task import Bound
+from azee_rig.chain import Frames
+from azee_rig.coordinates import Coordinates
+from azee_solver.anatomy import anatomy
+from azee_solver.constraint import Trill
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import depends_on
+
+Array = NDArray[np.float64]
+
+FADE_S = 0.1
+ENOUGH = 0.9
+"""Share of the axis that a bone's own joint must be able to turn about, or the next one helps."""
+_STEP_RAD = 1e-5
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Oscillation:
+    """A trill on one body: bound, and change of the coordinates per radian of swing, (V,)."""
+
+    bound: Bound
+    direction: Array
+    reach: float
+    """Share of the axis that the joints can turn about, 0 to 1."""
+
+    def swing(self, times_s: Array) -> Array:
+        """Return the angle at times, (T,) radians."""
+        trill = self.bound.constraint
+        assert isinstance(trill, Trill)
+        interval = self.bound.requirement.interval
+        start, end = float(interval.start), float(interval.end)
+        fade = min(FADE_S, (end - start) / 2)
+        if fade <= 0:
+            return np.zeros(len(times_s))
+        envelope = minimum_jerk((times_s - start) / fade) * minimum_jerk((end - times_s) / fade)
+        wave = np.sin(2 * math.pi * trill.frequency_hz * (times_s - start))
+        return np.asarray(trill.amplitude_rad * envelope * wave)
+
+
+def oscillation(bound: Bound, q: Array, evaluator: Evaluator) -> Oscillation:
+    """Find how the coordinates turn a trilled bone about its axis.
+
+    The least change whose angular velocity is the axis, as far as the joints allow.
+
+    Args: q: (V,) posture in the middle of the trill.
+    """
+    trill = bound.constraint
+    assert isinstance(trill, Trill)
+    chain, coordinates = evaluator.rig.chain, evaluator.rig.coordinates
+    nodes = evaluator.binding.bone(trill.bone)
+    frames = chain.frames(q)
+    axis = _world_axis(trill, frames, evaluator)
+    body = anatomy(chain, coordinates)
+    best = Oscillation(bound, np.zeros(len(coordinates)), 0.0)
+    first = int(chain.parents[nodes.origin_node])
+    for _ in range(2):
+        movers = sorted(body.below(first, nodes.node))
+        rates = np.stack([_turning(evaluator, q, v, nodes.node) for v in movers], axis=1)
+        change = np.linalg.lstsq(rates, axis, rcond=1e-6)[0]
+        reach = float(np.linalg.norm(rates @ change))
+        if reach > best.reach + 1e-6:
+            direction = np.zeros(len(coordinates))
+            direction[movers] = change
+            best = Oscillation(bound, direction, reach)
+        if reach >= ENOUGH or first < 0:
+            break
+        first = _before(first, evaluator)
+    return best
+
+
+def laid_on(
+    q: Array, times_s: Array, trills: Sequence[Oscillation], coordinates: Coordinates
+) -> tuple[Array, dict[int, float]]:
+    """Add trills to a movement, inside the limits.
+
+    Args: q: (T, V). times_s: (T,) on the score's time line.
+    Returns: coordinates (T, V), and per rank of a trill the largest angle it falls short by.
+    """
+    out = q.copy()
+    short: dict[int, float] = {}
+    for trill in trills:
+        interval = trill.bound.requirement.interval
+        ends = np.searchsorted(times_s, (float(interval.start), float(interval.end)))
+        rows = slice(int(ends[0]), int(ends[1]))
+        wanted = out[rows] + trill.swing(times_s[rows])[:, None] * trill.direction
+        out[rows] = np.clip(wanted, coordinates.lower, coordinates.upper)
+        lost = float(np.max(np.abs(wanted - out[rows]), initial=0.0))
+        constraint = trill.bound.constraint
+        assert isinstance(constraint, Trill)
+        missing = (1.0 - trill.reach) * constraint.amplitude_rad
+        short[trill.bound.requirement.rank] = max(lost, missing)
+    return out, short
+
+
+def _before(node: int, evaluator: Evaluator) -> int:
+    """Return the node that the bone above a node hangs on, −1 for none."""
+    parents = evaluator.rig.chain.parents
+    origins = {bone.node: bone.origin_node for bone in evaluator.rig.bones.values()}
+    while node >= 0 and node not in origins:
+        node = int(parents[node])
+    return int(parents[origins[node]]) if node >= 0 else -1
+
+
+def _turning(evaluator: Evaluator, q: Array, coordinate: int, node: int) -> Array:
+    """World angular velocity of a node per unit speed of a coordinate, (3,)."""
+    both = np.stack([q, q])
+    both[0, coordinate] -= _STEP_RAD
+    both[1, coordinate] += _STEP_RAD
+    R = evaluator.rig.chain.frames(both).rotations[:, node]
+    spin = (R[1] @ R[0].T - R[0] @ R[1].T) / (4 * _STEP_RAD)
+    return np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
+
+
+def _world_axis(trill: Trill, frames: Frames, evaluator: Evaluator) -> Array:
+    axis = evaluator.vector(trill.axis, frames)
+    length = float(np.linalg.norm(axis))
+    if not np.isfinite(length) or length < 1e-9:
+        return np.zeros(3)
+    if not depends_on(trill.axis):
+        nodes = evaluator.binding.bone(trill.bone)
+        parent = int(evaluator.rig.chain.parents[nodes.origin_node])
+        if parent >= 0:
+            axis = frames.rotations[parent] @ axis
+    return np.asarray(axis / length)

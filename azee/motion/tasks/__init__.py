@@ -1,0 +1,1 @@
+"""What a score asks of the body, and when."""

@@ -1,0 +1,1 @@
+"""What a movement is worth: reports and measures."""

@@ -1,0 +1,276 @@
+"""What a movement is worth: every constraint over its whole block, limits, and the solving."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.keys.plan import Plan
+from azee.motion.keys.residual_monitor import TOLERANCE
+from azee.motion.tasks.timed_task import Bound, BoundScore
+from azee.quality.measures import CoordinatePeaks, Penetration
+from azee_rig.coordinates import Coordinates
+from azee_solver import describe
+from azee_solver.constraint import Constraint, Trill
+from azee_solver.geometry import Side
+
+if TYPE_CHECKING:
+    from azee.motion.tasks.posture import KeyPosture
+
+Array = NDArray[np.float64]
+
+_ROUNDING = 1.0 + 1e-6
+FACE_TOLERANCE_M = TOLERANCE["m"]
+
+
+@dataclass(frozen=True, slots=True)
+class ConstraintResult:
+    """One constraint of one block, measured over the whole block.
+
+    residual: the largest at any frame or key inside the block, metres or radians; none where the
+    geometry it names is degenerate. Times are the score's.
+    """
+
+    path: tuple[str, ...]
+    rule: str | None
+    kind: str
+    subject: str
+    target: str
+    start_s: float
+    end_s: float
+    residual: float | None
+    unit: str
+    tolerance: float
+    met: bool
+    reason: str | None
+
+    def as_json(self) -> dict[str, object]:
+        """Return it as the report's JSON has it."""
+        return {
+            "path": [*self.path],
+            "rule": self.rule,
+            "kind": self.kind,
+            "subject": self.subject,
+            "target": self.target,
+            "start_s": self.start_s,
+            "end_s": self.end_s,
+            "residual": self.residual,
+            "unit": self.unit,
+            "tolerance": self.tolerance,
+            "met": self.met,
+            "reason": self.reason,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class MotionReport:
+    """The report of one animation.
+
+    blocks: their times, and until when each holds what it asks. peaks: of the coordinates that
+    move. look: finds what enters what.
+    """
+
+    rig: str
+    fps: float
+    mode: str
+    duration_s: float
+    lead_s: float
+    score_s: float
+    constraints: tuple[ConstraintResult, ...]
+    max_excess_rad: float
+    excess_joint: str | None
+    postures: tuple[KeyPosture, ...]
+    blocks: tuple[Mapping[str, object], ...]
+    peaks: tuple[CoordinatePeaks, ...]
+    look: Callable[[], tuple[Penetration, ...]]
+
+    @cached_property
+    def clip_penetration(self) -> tuple[Penetration, ...]:
+        """What enters what in any frame; looked for when asked, for it takes a while."""
+        return self.look()
+
+    @property
+    def met(self) -> bool:
+        """Whether every constraint is within its tolerance."""
+        return all(c.met for c in self.constraints)
+
+    @property
+    def evaluations(self) -> int:
+        """Evaluations of objectives, all solves together."""
+        return sum(p.report.evaluations for p in self.postures if not p.reused)
+
+    @property
+    def solve_s(self) -> float:
+        """Time spent solving."""
+        return float(sum(p.report.solve_s for p in self.postures if not p.reused))
+
+    @property
+    def explain_s(self) -> float:
+        """Time spent finding out why what misses misses."""
+        return float(sum(p.report.explain_s for p in self.postures if not p.reused))
+
+    def as_json(self) -> dict[str, object]:
+        """Return the report as plain data."""
+        return {
+            "rig": self.rig,
+            "fps": self.fps,
+            "mode": self.mode,
+            "duration_s": self.duration_s,
+            "lead_s": self.lead_s,
+            "score_s": self.score_s,
+            "keyframes": [_keyframe(p) for p in self.postures],
+            "problems": [row for p in self.postures if not p.reused for row in _problems(p)],
+            "evaluations": self.evaluations,
+            "solve_s": self.solve_s,
+            "explain_s": self.explain_s,
+            "constraints": [c.as_json() for c in self.constraints],
+            "limits": {"max_excess_rad": self.max_excess_rad, "joint": self.excess_joint},
+            "penetration": [row for p in self.postures for row in _penetration(p)],
+            "clip_penetration": [p.as_json() for p in self.clip_penetration],
+            "blocks": [{**row} for row in self.blocks],
+            "coordinates": [p.as_json() for p in self.peaks],
+        }
+
+
+def constraint_results(
+    score: BoundScore, plan: Plan, short: Mapping[int, float], dominant: Side
+) -> tuple[ConstraintResult, ...]:
+    """Measure every requirement at the clip's frames and at the keys inside its block.
+
+    What trills lay on top is not counted against the constraints that they swing about.
+
+    Args: short: angles by which trills fall short, by rank.
+    """
+    measurable = {b.requirement.rank for b in plan.gauge.measurable}
+    out = []
+    for bound in score.all:
+        rank = bound.requirement.rank
+        if rank in measurable:
+            out.append(_measured(bound, plan, dominant))
+        elif isinstance(bound.constraint, Trill):
+            out.append(_trill(bound, short.get(rank, 0.0), dominant))
+        else:
+            out.append(_result(bound, dominant, 0.0, "m", FACE_TOLERANCE_M, None))
+    return tuple(out)
+
+
+def _measured(bound: Bound, plan: Plan, dominant: Side) -> ConstraintResult:
+    gauge = plan.gauge
+    rows = gauge.inside(bound, plan.instants.seconds)
+    values = gauge.residual(bound, plan.instants.only(rows))
+    residual = float(np.max(values, initial=0.0))
+    unit, tolerance = gauge.unit(bound), gauge.tolerance(bound)
+    reason = None
+    if not residual <= tolerance * _ROUNDING:
+        reason = _reason(bound, plan, residual)
+    return _result(bound, dominant, residual, unit, tolerance, reason)
+
+
+def _reason(bound: Bound, plan: Plan, residual: float) -> str:
+    given = plan.gauge.giving_way.get(bound.requirement.rank)
+    if given is not None:
+        return (
+            f"gives way at {float(given.start):.3f} s to {'/'.join(given.to)}, "
+            "which starts at the instant this ends and wants another posture"
+        )
+    worst, found = -math.inf, None
+    for posture in plan.postures:
+        for answer in posture.report.constraints:
+            same = answer.demand.constraint == bound.constraint
+            if same and bound in posture.bounds and not answer.met and answer.residual > worst:
+                worst, found = answer.residual, answer.reason
+    if found:
+        return found
+    if not math.isfinite(residual):
+        return "the geometry it names is degenerate"
+    return "met at the keys but not at every frame between them"
+
+
+def _trill(bound: Bound, short: float, dominant: Side) -> ConstraintResult:
+    tolerance = TOLERANCE["rad"]
+    reason = None if short <= tolerance else "the limits of its joints are in the way"
+    return _result(bound, dominant, short, "rad", tolerance, reason)
+
+
+def _result(
+    bound: Bound,
+    dominant: Side,
+    residual: float,
+    unit: str,
+    tolerance: float,
+    reason: str | None,
+) -> ConstraintResult:
+    r = bound.requirement
+    return ConstraintResult(
+        path=r.path,
+        rule=r.rule,
+        kind=kind(r.constraint),
+        subject=describe.subject(r.constraint, dominant),
+        target=describe.target(r.constraint, dominant),
+        start_s=float(r.interval.start),
+        end_s=float(r.interval.end),
+        residual=residual if math.isfinite(residual) else None,
+        unit=unit,
+        tolerance=tolerance,
+        met=reason is None,
+        reason=reason,
+    )
+
+
+def kind(constraint: Constraint) -> str:
+    """Return the AZee word for a kind of constraint."""
+    return type(constraint).__name__.lower()
+
+
+def limit_excess(q: Array, coordinates: Coordinates) -> tuple[float, str | None]:
+    """Return by how much the worst coordinate of a clip leaves its limits, and which it is."""
+    excess = np.max(np.maximum(coordinates.lower - q, q - coordinates.upper), axis=0, initial=0.0)
+    worst = int(np.argmax(excess))
+    return float(excess[worst]), coordinates.names[worst] if excess[worst] > 0 else None
+
+
+def _keyframe(posture: KeyPosture) -> dict[str, object]:
+    return {
+        "time_s": float(posture.time),
+        "origin": posture.origin.value,
+        "constraints": len(posture.demands),
+        "unmet": posture.misses(),
+        "limbs": sorted(posture.limbs),
+        "reused": posture.reused,
+    }
+
+
+def _problems(posture: KeyPosture) -> Sequence[dict[str, object]]:
+    return [
+        {
+            "time_s": float(posture.time),
+            "name": p.name,
+            "constraints": [
+                {"path": [*posture.demands[i].path], "kind": kind(posture.demands[i].constraint)}
+                for i in p.constraints
+            ],
+            "chain": [*p.chain],
+            "merged_into": p.merged_into,
+            "moved": [*p.moved],
+            **({} if p.iterations is None else {"iterations": p.iterations}),
+        }
+        for p in posture.report.problems
+    ]
+
+
+def _penetration(posture: KeyPosture) -> Sequence[dict[str, object]]:
+    return [
+        {
+            "time_s": float(posture.time),
+            "pair": [p.first, p.second],
+            "depth_m": p.depth_m,
+            "intended": False,
+        }
+        for p in posture.report.penetration
+    ]

@@ -27,12 +27,12 @@ from azee.quality.measures import block_times, peaks, penetrations
 from azee.quality.motion_report import MotionReport, constraint_results, limit_excess
 from azee.score.score import Score
 from azee_rig.rig import Rig
-from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
 from azee_solver.report import SolveReport
 from azee_solver.solve import solve
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
@@ -137,7 +137,7 @@ def animate(
 
 def _solver(rig: Rig, dominant: Side) -> PostureSolver:
     def answer(
-        demands: Sequence[Demand],
+        tasks: Sequence[Task],
         *,
         start: Array,
         reference: Array,
@@ -148,7 +148,7 @@ def _solver(rig: Rig, dominant: Side) -> PostureSolver:
         if search is Search.NEAR:
             options = replace(options, further_starts=0, patience=0)
         return solve(
-            rig, demands, dominant=dominant, start=start, reference=reference, options=options
+            rig, tasks, dominant=dominant, start=start, reference=reference, options=options
         )
 
     return answer

@@ -24,11 +24,11 @@ from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver.anatomy import Part, anatomy
 from azee_solver.constraint import BoneAxis, Constraint, Orient, Place, Relation
-from azee_solver.demand import Demand
 from azee_solver.geometry import Bone, Side, Site, Vec, WorldPoint
 from azee_solver.options import SolveOptions
 from azee_solver.report import SolveReport
 from azee_solver.solve import solve
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
@@ -129,9 +129,9 @@ def swept(rig: Rig, kind: str, sweep: int) -> Iterator[tuple[float, SolveReport]
     start, options = idle, wide
     for target in line(rig, sweep):
         asked = kinds(WorldPoint(*target.tolist()))[kind]
-        demands = [Demand(c, rank=i) for i, c in enumerate(asked)]
+        tasks = [Task(c, rank=i) for i, c in enumerate(asked)]
         report = solve(
-            rig, demands, dominant=Side.RIGHT, start=start, reference=idle, options=options
+            rig, tasks, dominant=Side.RIGHT, start=start, reference=idle, options=options
         )
         start, options = report.coordinates, near
         yield float(np.linalg.norm(target - shoulder)) / reach, report

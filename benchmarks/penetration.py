@@ -89,9 +89,9 @@ def contacts(rig: Rig, posture: KeyPosture) -> list[Contact]:
     evaluator = Evaluator(rig, Side.RIGHT)
     frames = rig.chain.frames(posture.coordinates)
     return [
-        meant_contact(evaluator, frames, demand.constraint)
-        for demand in posture.demands
-        if isinstance(demand.constraint, Place) and isinstance(demand.constraint.point, SitePoint)
+        meant_contact(evaluator, frames, task.constraint)
+        for task in posture.tasks
+        if isinstance(task.constraint, Place) and isinstance(task.constraint.point, SitePoint)
     ]
 
 

@@ -182,7 +182,7 @@ def _reason(bound: Bound, plan: Plan, residual: float) -> str:
     worst, found = -math.inf, None
     for posture in plan.postures:
         for answer in posture.report.constraints:
-            same = answer.demand.constraint == bound.constraint
+            same = answer.task.constraint == bound.constraint
             if same and bound in posture.bounds and not answer.met and answer.residual > worst:
                 worst, found = answer.residual, answer.reason
     if found:
@@ -239,7 +239,7 @@ def _keyframe(posture: KeyPosture) -> dict[str, object]:
     return {
         "time_s": float(posture.time),
         "origin": posture.origin.value,
-        "constraints": len(posture.demands),
+        "constraints": len(posture.tasks),
         "unmet": posture.misses(),
         "limbs": sorted(posture.limbs),
         "reused": posture.reused,
@@ -252,7 +252,7 @@ def _problems(posture: KeyPosture) -> Sequence[dict[str, object]]:
             "time_s": float(posture.time),
             "name": p.name,
             "constraints": [
-                {"path": [*posture.demands[i].path], "kind": kind(posture.demands[i].constraint)}
+                {"path": [*posture.tasks[i].path], "kind": kind(posture.tasks[i].constraint)}
                 for i in p.constraints
             ],
             "chain": [*p.chain],

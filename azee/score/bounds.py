@@ -45,7 +45,7 @@ _MOST_NAMED = 12
 
 
 class Bounds:
-    """The bounds of named blocks, computed on demand and each once."""
+    """The bounds of named blocks, computed on task and each once."""
 
     def __init__(
         self, names: Sequence[str], scores: Sequence[Score], placements: Sequence[Placement]

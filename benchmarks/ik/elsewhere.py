@@ -100,7 +100,7 @@ class Environment:
 
     def _json(self, rig: Rig, problem: Problem) -> dict[str, object]:
         steps = ordered_steps(rig, problem) if self.ordered else [
-            (frozenset(problem.free), list(range(len(problem.demands))))
+            (frozenset(problem.free), list(range(len(problem.tasks))))
         ]  # fmt: skip
         constraints = problem.constraints
         return {
@@ -124,15 +124,15 @@ def ordered_steps(rig: Rig, problem: Problem) -> list[tuple[frozenset[int], list
     move all that is known to suffice.
     """
     binding = Binding(rig, Side.RIGHT)
-    built = ProblemBuilder(problem.demands, binding, anatomy(rig.chain, rig.coordinates)).build()
+    built = ProblemBuilder(problem.tasks, binding, anatomy(rig.chain, rig.coordinates)).build()
     if len(built) == 1:
-        return [(frozenset(problem.free), list(built[0].demands))]
+        return [(frozenset(problem.free), list(built[0].tasks))]
     placed: frozenset[int] = frozenset()
     steps = []
     for ordered in built:
         own = ordered.steps[Reach.OWN]
-        steps.append((own - placed or own, list(ordered.demands)))
-        if any(isinstance(problem.constraints[i], Place) for i in ordered.demands):
+        steps.append((own - placed or own, list(ordered.tasks)))
+        if any(isinstance(problem.constraints[i], Place) for i in ordered.tasks):
             placed |= own
     return steps
 

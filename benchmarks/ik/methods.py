@@ -60,7 +60,7 @@ def ours(options: SolveOptions) -> Method:
         clock = Clock()
         report = solve(
             rig,
-            problem.demands,
+            problem.tasks,
             dominant=Side.RIGHT,
             start=idle,
             reference=idle,
@@ -75,7 +75,7 @@ def two_level(rig: Rig, problem: Problem) -> Answer:
     """Listing 1 of the 2018 paper."""
     idle = rig.coordinates.idle
     clock = Clock()
-    report = solve_two_level(rig, problem.demands, dominant=Side.RIGHT, start=idle, reference=idle)
+    report = solve_two_level(rig, problem.tasks, dominant=Side.RIGHT, start=idle, reference=idle)
     rounds = tuple(p.iterations for p in report.problems if p.iterations is not None)
     return replace(_answer(report, clock), rounds=rounds)
 
@@ -90,7 +90,7 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
     evaluator = Evaluator(rig, Side.RIGHT)
     moving = anatomy(rig.chain, rig.coordinates).moved_by(problem.free)
     tape = Tape(evaluator, rig.chain.frames(idle), moving)
-    asked = dict(enumerate(problem.demands))
+    asked = dict(enumerate(problem.tasks))
     residuals = lower(tape, asked, FULL.tolerance, {})
     cost = Cost(
         idle,

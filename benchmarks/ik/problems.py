@@ -19,9 +19,9 @@ from azee_solver.anatomy import anatomy
 from azee_solver.binding import Binding
 from azee_solver.collisions import Obstacles
 from azee_solver.constraint import BoneAxis, Constraint, Orient, Place, Relation
-from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Bone, Dir, Nrm, Opp, Side, Site, SitePoint, Vec, WorldPoint
+from azee_solver.task import Task
 from benchmarks.ik.levenberg import Flat
 
 Array = NDArray[np.float64]
@@ -46,14 +46,14 @@ class Problem:
 
     kind: str
     number: int
-    demands: tuple[Demand, ...]
+    tasks: tuple[Task, ...]
     free: tuple[int, ...]
     truth: Array | None = None
 
     @property
     def constraints(self) -> list[Constraint]:
         """What is asked, in order."""
-        return [demand.constraint for demand in self.demands]
+        return [task.constraint for task in self.tasks]
 
 
 class Maker:
@@ -99,7 +99,7 @@ class Maker:
             found = None
             while found is None:
                 found = self.classes()[kind](rng)
-            yield Problem(kind, number, found.demands, found.free, found.truth)
+            yield Problem(kind, number, found.tasks, found.free, found.truth)
 
     # Postures ---------------------------------------------------------------------------------
 
@@ -274,5 +274,5 @@ def problem(
     constraints: list[Constraint], free: tuple[int, ...], truth: Array | None = None
 ) -> Problem:
     """Return constraints as a problem, in the order in which they are written."""
-    demands = tuple(Demand(c, rank=i) for i, c in enumerate(constraints))
-    return Problem("", 0, demands, free, truth)
+    tasks = tuple(Task(c, rank=i) for i, c in enumerate(constraints))
+    return Problem("", 0, tasks, free, truth)

@@ -28,7 +28,7 @@ def by_problems(rig: Rig, repeats: int) -> Iterator[dict[str, object]]:
         constraints = {1: 3, 2: 4}.get(step, 5 + step)
         seconds = []
         for tree in trees:
-            part = Problem("", 0, tree.demands[:constraints], tree.free)
+            part = Problem("", 0, tree.tasks[:constraints], tree.free)
             seconds.append(METHODS["ours, no collision"](rig, part).seconds)
         yield {"problems": step, "median_s": float(np.median(seconds))}
 
@@ -43,7 +43,7 @@ def by_moments(rig: Rig) -> Iterator[dict[str, object]]:
         clock = Clock()
         for tree in trees[:count]:
             report = solve(
-                rig, tree.demands, dominant=Side.RIGHT, start=at, reference=idle, options=FULL
+                rig, tree.tasks, dominant=Side.RIGHT, start=at, reference=idle, options=FULL
             )
             at, problems = report.coordinates, problems + len(report.problems)
         yield {"moments": count, "problems": problems, "seconds": clock.seconds()}

@@ -32,10 +32,10 @@ def example_tree(
     Args: thumb: ask for the published directions of the thumb too, of which one is impossible.
     """
     score = score_of(load(read_source(source)), None, None)
-    demands = perform(score, rig, mode="flat").report.postures[0].demands
+    tasks = perform(score, rig, mode="flat").report.postures[0].tasks
     if not thumb:
-        demands = tuple(d for d in demands if not _is_of_thumb(d.constraint))
-    asked = Problem("tree", 0, demands, ())
+        tasks = tuple(d for d in tasks if not _is_of_thumb(d.constraint))
+    asked = Problem("tree", 0, tasks, ())
     for name in methods:
         METHODS[name](rig, asked)
     return [
@@ -57,7 +57,7 @@ def figure_5(rig: Rig, source: Path) -> list[dict[str, object]]:
             "problem": n,
             "name": problem.name,
             "places": sum(
-                isinstance(report.constraints[i].demand.constraint, Place)
+                isinstance(report.constraints[i].task.constraint, Place)
                 for i in problem.constraints
             ),
             "constraints": len(problem.constraints),

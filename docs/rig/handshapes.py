@@ -24,10 +24,10 @@ from azee.lang.program import evaluate_expression
 from azee.score.score import Key, leaves
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
-from azee_solver.demand import Demand
 from azee_solver.geometry import Side
 from azee_solver.report import SolveReport
 from azee_solver.solve import solve
+from azee_solver.task import Task
 
 HERE = Path(__file__).parent
 SHOWN = json.loads((HERE / "postures.json").read_text(encoding="utf-8"))["show_hands"]
@@ -87,14 +87,14 @@ def held_up(rig: Rig) -> NDArray[np.float64]:
 def formed(rig: Rig, shape: str, side: Side = Side.RIGHT) -> SolveReport:
     """Solve a shape of the strong hand."""
     score = evaluate_expression(f"key(1, {shape})").score
-    demands = [
-        Demand(constraint, leaf.path, Fraction(0), rank)
+    tasks = [
+        Task(constraint, leaf.path, Fraction(0), rank)
         for leaf in leaves(score)
         if isinstance(leaf.score, Key)
         for rank, constraint in enumerate(leaf.score.constraints)
     ]
     q = held_up(rig)
-    return solve(rig, demands, dominant=side, start=q, reference=q)
+    return solve(rig, tasks, dominant=side, start=q, reference=q)
 
 
 def main(out: Path) -> None:

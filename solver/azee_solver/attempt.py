@@ -17,13 +17,13 @@ from azee_solver.body import Body
 from azee_solver.broadphase import Collisions
 from azee_solver.collisions import MARGIN_M, depths
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
-from azee_solver.demand import Demand
 from azee_solver.descent import descended, pressed, refined, weighing
 from azee_solver.program import Program, Row
 from azee_solver.residuals import Residuals, lower
 from azee_solver.result import Result, excess, gains, is_again, merit
 from azee_solver.starts import starts, straight, typical
 from azee_solver.tape import Tape
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
@@ -63,7 +63,7 @@ NEARER = 0.1
 
 def solve_group(
     body: Body,
-    demands: Mapping[int, Demand],
+    tasks: Mapping[int, Task],
     q: Array,
     free: frozenset[int],
     *,
@@ -74,15 +74,15 @@ def solve_group(
     thorough: bool = True,
     to_the_end: bool = True,
 ) -> Result:
-    """Return the best posture found for some demands when some coordinates may move.
+    """Return the best posture found for some tasks when some coordinates may move.
 
     Args: q: (V,) the posture so far. unsettled: coordinates that other problems will still move.
-        ease: factors of the demands' weights. first: postures (V,) to start from before the
+        ease: factors of the tasks' weights. first: postures (V,) to start from before the
         others, or instead of them. thorough: look on while the body is in the way; else leave
         that to a wider problem. to_the_end: get as near as can be to what is missed; else leave
         that to the next try.
     """
-    attempt = _Attempt(body, demands, q, free, unsettled, ease or {})
+    attempt = _Attempt(body, tasks, q, free, unsettled, ease or {})
     if not attempt.residuals.rows:
         return Result(q, {}, 0.0, 0.0, attempt.residuals.undefined)
     indices = attempt.program.free
@@ -114,26 +114,26 @@ class _Attempt:
     def __init__(
         self,
         body: Body,
-        demands: Mapping[int, Demand],
+        tasks: Mapping[int, Task],
         q: Array,
         free: frozenset[int],
         unsettled: frozenset[int],
         ease: Mapping[int, float],
     ) -> None:
-        self.body, self.demands, self.q = body, demands, q
+        self.body, self.tasks, self.q = body, tasks, q
         self.ease = frozenset(ease)
         options = body.options
         moving = body.anatomy.moved_by(free)
         frames = body.frames(q)
         tape = Tape(body.evaluator, frames, moving)
-        self.residuals: Residuals = lower(tape, demands, options.tolerance, ease)
+        self.residuals: Residuals = lower(tape, tasks, options.tolerance, ease)
         rows = [*self.residuals.rows, *self._level(tape, free)]
         self.collisions = (
             body.obstacles.for_problem(free, unsettled - free)
             if options.overlap
             else Collisions.none()
         )
-        gazes = any(isinstance(d.constraint, Look | LookAt) for d in demands.values())
+        gazes = any(isinstance(d.constraint, Look | LookAt) for d in tasks.values())
         self.cost = body.cost(gazes=gazes)
         self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, self.cost)
 
@@ -218,7 +218,7 @@ class _Attempt:
 
         What is best early in a descent is not what is best at its end, so each goes on to there.
         """
-        places = [i for i in best.lost() if isinstance(self.demands[i].constraint, Place)]
+        places = [i for i in best.lost() if isinstance(self.tasks[i].constraint, Place)]
         if not any(best.ratios[i] > POLISH for i in places):
             return best
         for start in at_hand:
@@ -281,7 +281,7 @@ class _Attempt:
     def _measure(self, x: Array) -> Result:
         self.program(x, np.empty(0))
         ratios = self.residuals.ratios(
-            self.program.lengths(), self.demands, self.body.options.tolerance
+            self.program.lengths(), self.tasks, self.body.options.tolerance
         )
         q = self.q.copy()
         q[self.program.free] = x
@@ -299,13 +299,11 @@ class _Attempt:
         anatomy_, rig = self.body.anatomy, self.body.rig
         if not free & anatomy_.of(Part.TRUNK) or not free & anatomy_.of(Part.HEAD):
             return []
-        if any(
-            _turns_head(d.constraint, self.body.evaluator.binding) for d in self.demands.values()
-        ):
+        if any(_turns_head(d.constraint, self.body.evaluator.binding) for d in self.tasks.values()):
             return []
         node = rig.bones["head"].node
         level = self.body.frames(self.body.reference).rotations[node]
-        gaze = any(isinstance(d.constraint, Look | LookAt) for d in self.demands.values())
+        gaze = any(isinstance(d.constraint, Look | LookAt) for d in self.tasks.values())
         columns = (1,) if gaze else (0, 1, 2)
         weight = GAZING_LEVEL_RAD**-2 if gaze else 0.5 * LEVEL_RAD**-2
         return [

@@ -244,7 +244,7 @@ class Evaluator:
     ) -> tuple[Array, LengthOrAngle]:
         """How far postures are from meeting a constraint: (…,) metres or radians.
 
-        Args: q: (…, V) coordinates of the same postures. phase: see `Demand`. among: all
+        Args: q: (…, V) coordinates of the same postures. phase: see `Task`. among: all
             constraints in force at that moment, for morphs that share coordinates: they add.
         Raises: BindingError. ValueError: `constraint` is none that a posture meets: a facial
             morph, a trill or a transpath.

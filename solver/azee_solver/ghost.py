@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from azee_solver.attempt import AGAIN, POLISH, solve_group
 from azee_solver.body import Body
-from azee_solver.demand import Demand
 from azee_solver.footprint import Footprint
 from azee_solver.result import Result
 from azee_solver.settling import giving_way
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
@@ -28,21 +28,21 @@ AGREED = 3
 class Ghost:
     """What is known of what cannot be met.
 
-    given_up: demands that gave way to others even there, and factors of their weights. hopeless:
+    given_up: tasks that gave way to others even there, and factors of their weights. hopeless:
     those that were missed even there. postures: (V,) in which it met all that it was asked for.
     """
 
     def __init__(
-        self, body: Body, demands: Sequence[Demand], footprints: Mapping[int, Footprint]
+        self, body: Body, tasks: Sequence[Task], footprints: Mapping[int, Footprint]
     ) -> None:
-        self._body, self._demands, self._footprints = body, demands, footprints
+        self._body, self._tasks, self._footprints = body, tasks, footprints
         self._asked: frozenset[int] = frozenset()
         self.given_up: dict[int, float] = {}
         self.hopeless: frozenset[int] = frozenset()
         self.postures: list[Array] = []
 
-    def ask(self, lost: frozenset[int], among: Mapping[int, Demand], q: Array) -> None:
-        """Find out whether demands that are lost can be met together with others.
+    def ask(self, lost: frozenset[int], among: Mapping[int, Task], q: Array) -> None:
+        """Find out whether tasks that are lost can be met together with others.
 
         Looking on for the sake of what cannot would be in vain. A near miss is no proof, nor are
         ends that differ from start to start.
@@ -68,7 +68,7 @@ class Ghost:
 
         result = again({}, q)
         if result.worst() > POLISH and result.again >= AGREED:
-            ease, result = giving_way(result, {}, again, lambda i: self._demands[i].order)
+            ease, result = giving_way(result, {}, again, lambda i: self._tasks[i].order)
             self.given_up |= ease
             self.hopeless |= result.lost()
         elif not result.lost():

@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING, Any
 from azee_solver.anatomy import Anatomy, Part, part_of
 from azee_solver.binding import Binding
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
-from azee_solver.demand import Demand
 from azee_solver.footprint import Footprint, footprint
 from azee_solver.ordering import ordered
+from azee_solver.task import Task
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -47,12 +47,12 @@ class Reach(IntEnum):
 class Problem:
     """One of the ordered problems of a keyframe.
 
-    demands: indices of its demands, by their order. chain: AZee bones, from the root. steps:
+    tasks: indices of its tasks, by their order. chain: AZee bones, from the root. steps:
     coordinates that it may move, per `Reach`. reads: coordinates that change its residuals.
-    order: place of the first of its demands among all.
+    order: place of the first of its tasks among all.
     """
 
-    demands: tuple[int, ...]
+    tasks: tuple[int, ...]
     chain: tuple[str, ...]
     steps: tuple[frozenset[int], ...]
     reads: frozenset[int]
@@ -65,10 +65,10 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """What a demand asks of a body, wherever its target is.
+    """What a task asks of a body, wherever its target is.
 
     role: Place, Orient or Look. part: where the bone or site belongs that it speaks of; none for
-    a gaze. order: its place among all demands, by their order.
+    a gaze. order: its place among all tasks, by their order.
     """
 
     index: int
@@ -84,18 +84,18 @@ class _Asked:
 
 
 class ProblemBuilder:
-    """Builds the problems of one set of demands.
+    """Builds the problems of one set of tasks.
 
-    footprints: by the index of each demand that a posture can meet, but morphs.
+    footprints: by the index of each task that a posture can meet, but morphs.
     """
 
-    def __init__(self, demands: Sequence[Demand], binding: Binding, anatomy: Anatomy) -> None:
+    def __init__(self, tasks: Sequence[Task], binding: Binding, anatomy: Anatomy) -> None:
         self.binding, self.anatomy = binding, anatomy
-        self._presets = frozenset(binding.presets(demand.constraint for demand in demands))
+        self._presets = frozenset(binding.presets(task.constraint for task in tasks))
         self._asked = tuple(
-            _Asked(i, *_asks(demand.constraint, binding), order)
-            for i, (demand, order) in enumerate(zip(demands, _places(demands), strict=True))
-            if isinstance(demand.constraint, Place | Orient | Look | LookAt | Rotate)
+            _Asked(i, *_asks(task.constraint, binding), order)
+            for i, (task, order) in enumerate(zip(tasks, _places(tasks), strict=True))
+            if isinstance(task.constraint, Place | Orient | Look | LookAt | Rotate)
         )
         self.footprints: dict[int, Footprint] = {a.index: a.footprint for a in self._asked}
 
@@ -104,9 +104,9 @@ class ProblemBuilder:
         return _built(self.binding.rig, self.anatomy, self._asked, self._presets)
 
 
-def _places(demands: Sequence[Demand]) -> list[int]:
-    """Place of each demand among all by their order; the same where nothing tells them apart."""
-    orders = [demand.order for demand in demands]
+def _places(tasks: Sequence[Task]) -> list[int]:
+    """Place of each task among all by their order; the same where nothing tells them apart."""
+    orders = [task.order for task in tasks]
     keys: list[tuple[Any, ...]] = list(orders)
     if all(start == orders[0][0] for start, _, _ in orders):
         keys = [order[1:] for order in orders]  # exact fractions are slow to sort
@@ -144,9 +144,9 @@ def _built(
 
 @dataclass(slots=True)
 class _Draft:
-    """A problem being gathered: its demands, and the node at the end of its chain."""
+    """A problem being gathered: its tasks, and the node at the end of its chain."""
 
-    demands: list[int]
+    tasks: list[int]
     end: int
     role: type
 
@@ -194,7 +194,7 @@ class _Builder:
         node = max(asked.footprint.own)
         for draft in drafts:
             if asked.role is not Place and self._fits(asked, node, draft):
-                draft.demands.append(asked.index)
+                draft.tasks.append(asked.index)
                 draft.end = max(node, draft.end)
                 return
         drafts.append(_Draft([asked.index], node, asked.role))
@@ -207,11 +207,11 @@ class _Builder:
         above, below = sorted((node, draft.end))
         i = asked.index
         return self.anatomy.is_above(above, below) and not any(
-            self._reads(i, j) or self._reads(j, i) for j in draft.demands
+            self._reads(i, j) or self._reads(j, i) for j in draft.tasks
         )
 
     def _reads(self, i: int, j: int) -> bool:
-        """Whether the target of demand i hangs on a bone that demand j moves."""
+        """Whether the target of task i hangs on a bone that task j moves."""
         moved = self._step(j, Reach.OWN)
         return any(self.anatomy.above(node) & moved for node in self.asked[i].footprint.target)
 
@@ -256,7 +256,7 @@ class _Builder:
         return fingers & near
 
     def _finish(self, draft: _Draft) -> Problem:
-        asked = sorted((self.asked[i] for i in draft.demands), key=lambda a: a.rank)
+        asked = sorted((self.asked[i] for i in draft.tasks), key=lambda a: a.rank)
         indices = tuple(a.index for a in asked)
         bones = [
             (nodes.node, name)

@@ -21,9 +21,9 @@ from azee_solver import describe
 from azee_solver.attempt import solve_group
 from azee_solver.body import Body
 from azee_solver.constraint import Morph, Place
-from azee_solver.demand import Demand
 from azee_solver.footprint import Footprint
 from azee_solver.result import Result
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
@@ -40,11 +40,11 @@ class Diagnosis:
     def __init__(
         self,
         body: Body,
-        demands: Sequence[Demand],
+        tasks: Sequence[Task],
         footprints: Mapping[int, Footprint],
         q: Array,
     ) -> None:
-        self.demands, self.footprints, self.q = demands, footprints, q
+        self.tasks, self.footprints, self.q = tasks, footprints, q
         self.body, self.dominant = body, body.evaluator.binding.dominant
         self.spent_s = 0.0
 
@@ -59,14 +59,14 @@ class Diagnosis:
         return self.body.ghost(self.q)
 
     def reason(self, i: int, undefined: bool) -> str:
-        """Return why demand i is not met, in one phrase."""
+        """Return why task i is not met, in one phrase."""
         began = time.perf_counter()
         found = self._reason(i, undefined)
         self.spent_s += time.perf_counter() - began
         return found
 
     def _reason(self, i: int, undefined: bool) -> str:
-        constraint = self.demands[i].constraint
+        constraint = self.tasks[i].constraint
         if undefined:
             return "its direction is undefined: a vector in it has no length"
         if isinstance(constraint, Morph):
@@ -91,7 +91,7 @@ class Diagnosis:
     # One constraint alone ---------------------------------------------------------------------
 
     def _alone(self, body: Body, indices: Iterable[int], *, everything: bool = False) -> Result:
-        chosen = {k: self.demands[k] for k in indices}
+        chosen = {k: self.tasks[k] for k in indices}
         free = self._free(chosen, everything=everything)
         return solve_group(body, chosen, self.q, free, first=[self.q])
 
@@ -103,14 +103,14 @@ class Diagnosis:
 
     def _beyond_reach(self, i: int) -> float:
         """By how much a place is farther than the straightened body from its root can get."""
-        constraint = self.demands[i].constraint
+        constraint = self.tasks[i].constraint
         found = self.footprints[i]
         if not isinstance(constraint, Place) or not found.world or found.target:
             return 0.0
         chain = self.firm.rig.chain
         site = self.firm.evaluator.binding.site(constraint.site)
         frames = self.firm.frames(self.q)
-        aim = self.firm.evaluator.target(constraint, frames, self.demands[i].phase)
+        aim = self.firm.evaluator.target(constraint, frames, self.tasks[i].phase)
         free = self._free([i])
         length = float(sum(map(np.linalg.norm, (site.position, *(s.vector for s in site.shares)))))
         node = site.node
@@ -147,7 +147,7 @@ class Diagnosis:
         body = Body(
             wide, self.ghost.evaluator, self.q, {}, self.ghost.options, self.ghost.constraints
         )
-        chosen = {i: self.demands[i]}
+        chosen = {i: self.tasks[i]}
         result = solve_group(
             body, chosen, alone.q, self._free([i]), first=[alone.q], only_first=True
         )
@@ -158,7 +158,7 @@ class Diagnosis:
 
     def _morph(self, i: int, morph: Morph) -> str:
         limits, binding = self.firm.rig.coordinates, self.firm.evaluator.binding
-        asked = binding.presets(demand.constraint for demand in self.demands)
+        asked = binding.presets(task.constraint for task in self.tasks)
         for v in binding.preset(morph):
             if v in self.firm.options.fixed:
                 return f"{limits.names[v]} is held fixed"
@@ -205,13 +205,13 @@ class Diagnosis:
                     linked.add(k)
                     reach |= self._free([k], everything=True)
                     grown = True
-        return sorted(linked - {i}, key=lambda k: self.demands[k].order)
+        return sorted(linked - {i}, key=lambda k: self.tasks[k].order)
 
     def _fixed_by(self, i: int) -> list[str]:
         moved = self._free([i], everything=True)
         out = []
-        for demand in self.demands:
-            constraint = demand.constraint
+        for task in self.tasks:
+            constraint = task.constraint
             if isinstance(constraint, Morph) and self.firm.evaluator.binding.is_skeletal(
                 constraint
             ):
@@ -229,7 +229,7 @@ class Diagnosis:
 
     def _names(self, indices: Iterable[int]) -> str:
         return describe.sentence(
-            [f"`{describe.whole(self.demands[k].constraint, self.dominant)}`" for k in indices]
+            [f"`{describe.whole(self.tasks[k].constraint, self.dominant)}`" for k in indices]
         )
 
 

@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 from azee_solver import describe
 from azee_solver.collisions import Overlap
 from azee_solver.constraint import Constraint
-from azee_solver.demand import Demand
 from azee_solver.evaluate import LengthOrAngle
 from azee_solver.geometry import Side
+from azee_solver.task import Task
 
 
 @dataclass(frozen=True, slots=True)
 class ProblemReport:
     """One of the ordered problems.
 
-    constraints: indices of its demands, as given. asked: those demands' constraints. chain: AZee
+    constraints: indices of its tasks, as given. asked: those tasks' constraints. chain: AZee
     bones from the root to its end. merged: the problem that it was solved together with, the first
     of its group; none for that one and for a problem solved alone. moved: parts of the body that
     were free. iterations: rounds of the two-level method; none where another solved it. solve_s:
@@ -54,7 +54,7 @@ class ConstraintReport:
     met, else none.
     """
 
-    demand: Demand
+    task: Task
     dominant: Side
     residual: float
     unit: LengthOrAngle
@@ -65,12 +65,12 @@ class ConstraintReport:
     @property
     def kind(self) -> str:
         """What it speaks of, such as `place EL_R`."""
-        return describe.subject(self.demand.constraint, self.dominant)
+        return describe.subject(self.task.constraint, self.dominant)
 
     @property
     def target(self) -> str:
         """What it wants of that."""
-        return describe.target(self.demand.constraint, self.dominant)
+        return describe.target(self.task.constraint, self.dominant)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,7 +78,7 @@ class SolveReport:
     """A solved moment.
 
     coordinates: (V,) radians, inside the limits. problems: in the order of their dependencies.
-    constraints: those that joints can meet, in the order of the demands. penetration: capsules
+    constraints: those that joints can meet, in the order of the tasks. penetration: capsules
     that overlap beyond meant contacts, deepest first. reached: coordinates that the constraints
     may move. solve_s, explain_s: wall-clock time of finding the posture, and of finding out why
     some constraints miss; no other than times differs from run to run.

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from azee_solver import block
 from azee_solver.binding import EYES
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Relation, Rotate
-from azee_solver.demand import Demand
 from azee_solver.geometry import SitePoint
 from azee_solver.program import Row
 from azee_solver.tape import DegenerateError, Tape
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
@@ -34,9 +34,9 @@ class Tolerance:
 
 @dataclass(frozen=True, slots=True)
 class Residuals:
-    """Rows of some demands on a tape.
+    """Rows of some tasks on a tape.
 
-    runs: for each demand, by index, its first row and one past its last. undefined: demands whose
+    runs: for each task, by index, its first row and one past its last. undefined: tasks whose
     target has no direction; they have no rows.
     """
 
@@ -45,12 +45,12 @@ class Residuals:
     undefined: frozenset[int]
 
     def ratios(
-        self, lengths: Sequence[float], demands: Mapping[int, Demand], tolerance: Tolerance
+        self, lengths: Sequence[float], tasks: Mapping[int, Task], tolerance: Tolerance
     ) -> Ratios:
-        """How far each demand is from being met, in tolerances, from how far its rows are."""
+        """How far each task is from being met, in tolerances, from how far its rows are."""
         out = {}
         for i, (start, stop) in self.runs.items():
-            constraint = demands[i].constraint
+            constraint = tasks[i].constraint
             out[i] = _size(constraint, lengths[start:stop]) / tolerance.of(constraint)
         return out
 
@@ -59,20 +59,20 @@ Ratios = dict[int, float]
 
 
 def lower(
-    tape: Tape, demands: Mapping[int, Demand], tolerance: Tolerance, ease: Mapping[int, float]
+    tape: Tape, tasks: Mapping[int, Task], tolerance: Tolerance, ease: Mapping[int, float]
 ) -> Residuals:
-    """Return the rows of demands, weighted so that a miss by the tolerance costs 1.
+    """Return the rows of tasks, weighted so that a miss by the tolerance costs 1.
 
-    Args: ease: factor of a demand's weight, where it is not 1.
+    Args: ease: factor of a task's weight, where it is not 1.
     """
     rows: list[Row] = []
     runs: dict[int, tuple[int, int]] = {}
     undefined = set()
-    for i, demand in demands.items():
+    for i, task in tasks.items():
         start = len(rows)
-        weight = ease.get(i, 1.0) / tolerance.of(demand.constraint) ** 2
+        weight = ease.get(i, 1.0) / tolerance.of(task.constraint) ** 2
         try:
-            rows += _rows(tape, demand, weight)
+            rows += _rows(tape, task, weight)
         except DegenerateError:
             undefined.add(i)
             continue
@@ -80,15 +80,15 @@ def lower(
     return Residuals(tuple(rows), runs, frozenset(undefined))
 
 
-def _rows(tape: Tape, demand: Demand, weight: float) -> list[Row]:
-    constraint = demand.constraint
+def _rows(tape: Tape, task: Task, weight: float) -> list[Row]:
+    constraint = task.constraint
     match constraint:
         case Place(site, point, distance):
             reach = tape.evaluator.scale * distance
             if isinstance(point, SitePoint):
                 aim = tape.site(point.site, reach)
                 return [Row(block.MEET, tape.site(site), aim, weight)]
-            aim = tape.point(point, demand.phase)
+            aim = tape.point(point, task.phase)
             kind = block.AT_DISTANCE if reach else block.MEET
             return [Row(kind, tape.site(site), aim, weight, reach)]
         case Orient(axis, bone, relation, vector):
@@ -99,7 +99,7 @@ def _rows(tape: Tape, demand: Demand, weight: float) -> list[Row]:
             aim = tape.unit(tape.vector(vector))
             return [Row(block.MEET, tape.gaze(eye)[1], aim, weight) for eye in EYES]
         case LookAt(point):
-            aim = tape.point(point, demand.phase)
+            aim = tape.point(point, task.phase)
             rays = [tape.gaze(eye) for eye in EYES]
             return [Row(block.MEET, ray, tape.towards(eye, aim), weight) for eye, ray in rays]
         case Rotate():

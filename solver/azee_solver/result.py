@@ -24,8 +24,8 @@ SAME = 0.01
 class Result:
     """A posture that a group of problems ended in.
 
-    q: (V,). ratios: residual per demand, in tolerances. cost: sum of their squares. overlap_m: of
-    the capsules, deepest. undefined: demands whose target has no direction. eased: demands that
+    q: (V,). ratios: residual per task, in tolerances. cost: sum of their squares. overlap_m: of
+    the capsules, deepest. undefined: tasks whose target has no direction. eased: tasks that
     were given up in favour of others; they are not in the cost. again: how many other descents
     ended there too.
     """
@@ -39,15 +39,15 @@ class Result:
     again: int = 0
 
     def missed(self) -> frozenset[int]:
-        """Demands that are not met."""
+        """Tasks that are not met."""
         return frozenset(i for i, r in self.ratios.items() if not r <= 1.0) | self.undefined
 
     def worst(self) -> float:
-        """Greatest miss of a demand that was not given up, in tolerances."""
+        """Greatest miss of a task that was not given up, in tolerances."""
         return max((r for i, r in self.ratios.items() if i not in self.eased), default=0.0)
 
     def lost(self) -> frozenset[int]:
-        """Demands that are not met and should be: neither without direction nor given up."""
+        """Tasks that are not met and should be: neither without direction nor given up."""
         return self.missed() - self.undefined - self.eased
 
 

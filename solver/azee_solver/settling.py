@@ -12,7 +12,7 @@ from azee_solver.result import Result
 
 Array = NDArray[np.float64]
 Again = Callable[[Mapping[int, float], Array], Result]
-"""Solves once more: factors of demands' weights, and the posture (V,) to begin with."""
+"""Solves once more: factors of tasks' weights, and the posture (V,) to begin with."""
 Order = Callable[[int], tuple[Fraction, int, int]]
 
 PULL = 0.1

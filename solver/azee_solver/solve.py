@@ -21,7 +21,6 @@ from azee_solver.anatomy import Part
 from azee_solver.attempt import solve_group
 from azee_solver.body import Body
 from azee_solver.constraint import Place
-from azee_solver.demand import Demand
 from azee_solver.evaluate import evaluator
 from azee_solver.geometry import Side
 from azee_solver.ghost import Ghost
@@ -32,6 +31,7 @@ from azee_solver.report import SolveReport
 from azee_solver.result import Result, excess
 from azee_solver.settling import giving_way
 from azee_solver.state import State
+from azee_solver.task import Task
 from azee_solver.verdict import verdict
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ BEGUN_RAD = math.radians(1.0)
 
 def solve(
     rig: Rig,
-    demands: Sequence[Demand],
+    tasks: Sequence[Task],
     *,
     dominant: Side,
     start: Array,
@@ -67,10 +67,10 @@ def solve(
     Raises: BindingError: the rig lacks a bone, site or morph.
     """
     began = time.perf_counter()
-    moment = _Moment(rig, demands, dominant, start, reference, options or SolveOptions())
+    moment = _Moment(rig, tasks, dominant, start, reference, options or SolveOptions())
     state = moment.solve()
     return verdict(
-        moment.body, demands, moment.problems, moment.footprints, state, moment.spent_s, began
+        moment.body, tasks, moment.problems, moment.footprints, state, moment.spent_s, began
     )
 
 
@@ -78,19 +78,19 @@ class _Moment:
     def __init__(
         self,
         rig: Rig,
-        demands: Sequence[Demand],
+        tasks: Sequence[Task],
         dominant: Side,
         start: Array,
         reference: Array,
         options: SolveOptions,
     ) -> None:
-        self.rig, self.demands = rig, demands
+        self.rig, self.tasks = rig, tasks
         self.options = replace(options, posture=(1.0 + options.inertia) * options.posture)
         limits = rig.coordinates
         measure = evaluator(rig, dominant)
-        for demand in demands:
-            measure.binding.check(demand.constraint)
-        self.constraints = [demand.constraint for demand in demands]
+        for task in tasks:
+            measure.binding.check(task.constraint)
+        self.constraints = [task.constraint for task in tasks]
         presets = measure.binding.presets(self.constraints)
         self.start = np.clip(start, limits.lower, limits.upper)
         self.rest = np.clip(reference, limits.lower, limits.upper)
@@ -101,12 +101,12 @@ class _Moment:
         for v, angle in presets.items():
             if v not in options.fixed:
                 self.rest[v] = np.clip(angle, limits.lower[v], limits.upper[v])
-        builder = ProblemBuilder(demands, measure.binding, self.body.anatomy)
+        builder = ProblemBuilder(tasks, measure.binding, self.body.anatomy)
         self.problems: tuple[Problem, ...] = builder.build()
         self.footprints = builder.footprints
         self.spent_s: dict[tuple[int, ...], float] = {}
         """Time that groups have taken, by their problems."""
-        self.ghost = Ghost(self.body, demands, builder.footprints)
+        self.ghost = Ghost(self.body, tasks, builder.footprints)
 
     # Solving ----------------------------------------------------------------------------------
 
@@ -203,7 +203,7 @@ class _Moment:
             return None
         for other, result in zip(before.groups, before.results, strict=True):
             if (other.problems, other.free) == (group.problems, group.free):
-                eased = self.ghost.given_up.keys() & self._demands_of(group).keys()
+                eased = self.ghost.given_up.keys() & self._tasks_of(group).keys()
                 return result if result.eased >= eased else None
         return None
 
@@ -217,14 +217,14 @@ class _Moment:
         thorough: bool,
     ) -> Result:
         """Solve one group, all its constraints with equal right but those that were given up."""
-        demands = self._demands_of(group)
+        tasks = self._tasks_of(group)
         return solve_group(
             self.body,
-            demands,
+            tasks,
             q,
             group.free,
             unsettled=unsettled,
-            ease={i: ease for i, ease in self.ghost.given_up.items() if i in demands},
+            ease={i: ease for i, ease in self.ghost.given_up.items() if i in tasks},
             first=first,
             thorough=thorough,
             to_the_end=False,
@@ -234,8 +234,8 @@ class _Moment:
         """Whether all that a group has missed so far is missed by a ghost too."""
         if before is None:
             return False
-        demands = self._demands_of(group).keys()
-        lost = frozenset().union(*(r.lost() for r in before.results)) & demands
+        tasks = self._tasks_of(group).keys()
+        lost = frozenset().union(*(r.lost() for r in before.results)) & tasks
         return bool(lost) and lost <= self.ghost.hopeless
 
     def _is_last(self, group: Group) -> bool:
@@ -255,7 +255,7 @@ class _Moment:
         def again(ease: Mapping[int, float], begin: Array, *, finish: bool = False) -> Result:
             return solve_group(
                 self.body,
-                demands,
+                tasks,
                 q,
                 group.free,
                 unsettled=unsettled,
@@ -266,9 +266,9 @@ class _Moment:
                 to_the_end=finish,
             )
 
-        demands = self._demands_of(group)
-        given = {i: ease for i, ease in self.ghost.given_up.items() if i in demands}
-        ease, settled = giving_way(result, given, again, lambda i: self.demands[i].order)
+        tasks = self._tasks_of(group)
+        given = {i: ease for i, ease in self.ghost.given_up.items() if i in tasks}
+        ease, settled = giving_way(result, given, again, lambda i: self.tasks[i].order)
         if settled.lost() or ease != given:
             settled = again(ease, settled.q, finish=True)
         return settled
@@ -283,14 +283,14 @@ class _Moment:
             for group, result in zip(state.groups, state.results, strict=True)
             if result.lost() and (in_the_way or result.overlap_m < DODGED_M)
         ]
-        among: dict[int, Demand] = {}
+        among: dict[int, Task] = {}
         for group, _ in asked:
-            among |= self._demands_of(group)
+            among |= self._tasks_of(group)
         self.ghost.ask(frozenset().union(*(r.lost() for _, r in asked)), among, state.q)
 
-    def _demands_of(self, group: Group) -> dict[int, Demand]:
-        indices = sorted(i for p in group.problems for i in self.problems[p].demands)
-        return {i: self.demands[i] for i in indices}
+    def _tasks_of(self, group: Group) -> dict[int, Task]:
+        indices = sorted(i for p in group.problems for i in self.problems[p].tasks)
+        return {i: self.tasks[i] for i in indices}
 
     def _widened(self, reach: Sequence[Reach], state: State) -> list[Reach] | None:
         """Let problems of groups that miss move more, where that can help; none if nothing can."""

@@ -22,5 +22,5 @@ class State:
     results: tuple[Result, ...]
 
     def missed(self) -> frozenset[int]:
-        """Demands that are not met."""
+        """Tasks that are not met."""
         return frozenset().union(*(r.missed() for r in self.results))

@@ -24,12 +24,12 @@ from azee_solver.anatomy import Part
 from azee_solver.attempt import solve_group
 from azee_solver.body import Body
 from azee_solver.constraint import Morph, Place, Transpath, Trill
-from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.options import SolveOptions
 from azee_solver.problems import Problem, ProblemBuilder, Reach
 from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
 from azee_solver.residuals import Tolerance
+from azee_solver.task import Task
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -51,7 +51,7 @@ GIVEN_UP = "where the two-level iterations left it; they look for no reason"
 
 def solve_two_level(
     rig: Rig,
-    demands: Sequence[Demand],
+    tasks: Sequence[Task],
     *,
     dominant: Side,
     start: Array,
@@ -68,7 +68,7 @@ def solve_two_level(
     Raises: BindingError: the rig lacks a bone, site or morph.
     """
     began = time.perf_counter()
-    keyframe = _Keyframe(rig, demands, dominant, start, reference, fixed)
+    keyframe = _Keyframe(rig, tasks, dominant, start, reference, fixed)
     reports = []
     for problem, chain in zip(keyframe.problems, keyframe.chains, strict=True):
         started = time.perf_counter()
@@ -84,16 +84,16 @@ class _Keyframe:
     def __init__(
         self,
         rig: Rig,
-        demands: Sequence[Demand],
+        tasks: Sequence[Task],
         dominant: Side,
         start: Array,
         reference: Array,
         fixed: frozenset[int],
     ) -> None:
-        self.rig, self.demands, self.fixed = rig, demands, fixed
+        self.rig, self.tasks, self.fixed = rig, tasks, fixed
         limits = rig.coordinates
         evaluator = Evaluator(rig, dominant)
-        self.constraints = [demand.constraint for demand in demands]
+        self.constraints = [task.constraint for task in tasks]
         for constraint in self.constraints:
             evaluator.binding.check(constraint)
         self.presets = evaluator.binding.presets(self.constraints)
@@ -102,7 +102,7 @@ class _Keyframe:
         )
         self.q = np.clip(reference, limits.lower, limits.upper)
         self.body = Body(rig, evaluator, self.q, {}, options, self.constraints)
-        self.problems = ProblemBuilder(demands, evaluator.binding, self.body.anatomy).build()
+        self.problems = ProblemBuilder(tasks, evaluator.binding, self.body.anatomy).build()
         self.chains = self._chains()
         kept = sorted(fixed.union(*self.chains))
         self.q[kept] = np.clip(start, limits.lower, limits.upper)[kept]
@@ -117,7 +117,7 @@ class _Keyframe:
         for problem in self.problems:
             own = problem.steps[Reach.OWN] - self.fixed - frozenset(self.presets)
             chains.append(own - placed or own)
-            if any(isinstance(self.constraints[i], Place) for i in problem.demands):
+            if any(isinstance(self.constraints[i], Place) for i in problem.tasks):
                 placed |= own
         return chains
 
@@ -125,20 +125,20 @@ class _Keyframe:
         """Solve one problem and return how many rounds that took (listing 1)."""
         for iteration in range(1, MAX_ITERATIONS):
             self._round(problem, chain)
-            if all(self._offset(i) < 1.0 for i in problem.demands):
+            if all(self._offset(i) < 1.0 for i in problem.tasks):
                 return iteration
         self._round(problem, chain)
         return MAX_ITERATIONS
 
     def _round(self, problem: Problem, chain: frozenset[int]) -> None:
-        for i in problem.demands:
+        for i in problem.tasks:
             self._apply(i, chain)
 
     def _apply(self, i: int, chain: frozenset[int]) -> None:
         """Let one constraint have its way (`apply_to`)."""
         if chain:
             self.body.reference = self.q
-            alone = {i: self.demands[i]}
+            alone = {i: self.tasks[i]}
             found = solve_group(
                 self.body, alone, self.q, chain, first=[self.q], only_first=True, thorough=False
             )
@@ -150,10 +150,10 @@ class _Keyframe:
         return residual / THRESHOLDS.of(self.constraints[i])
 
     def _residual(self, i: int) -> tuple[float, str]:
-        demand = self.demands[i]
+        task = self.tasks[i]
         frames = self.body.frames(self.q)
         residual, unit = self.body.evaluator.residual(
-            demand.constraint, frames, self.q, demand.phase, self.constraints
+            task.constraint, frames, self.q, task.phase, self.constraints
         )
         return float(residual), unit
 
@@ -164,8 +164,8 @@ class _Keyframe:
         parts = {self.body.anatomy.parts[v] for v in chain}
         moved = tuple(part.value for part in Part if part in parts)
         return ProblemReport(
-            problem.demands,
-            tuple(self.constraints[i] for i in problem.demands),
+            problem.tasks,
+            tuple(self.constraints[i] for i in problem.tasks),
             self.body.evaluator.binding.dominant,
             problem.chain,
             None,
@@ -190,19 +190,19 @@ class _Keyframe:
     def _constraint_reports(self) -> list[ConstraintReport]:
         binding = self.body.evaluator.binding
         reports = []
-        for i, demand in enumerate(self.demands):
-            match demand.constraint:
+        for i, task in enumerate(self.tasks):
+            match task.constraint:
                 case Transpath() | Trill():
                     continue
                 case Morph() as morph if not binding.is_skeletal(morph):
                     continue
             residual, unit = self._residual(i)
-            tolerance = SolveOptions().tolerance.of(demand.constraint)
+            tolerance = SolveOptions().tolerance.of(task.constraint)
             met = residual <= tolerance
-            reason = CONTENT if residual < THRESHOLDS.of(demand.constraint) else GIVEN_UP
+            reason = CONTENT if residual < THRESHOLDS.of(task.constraint) else GIVEN_UP
             reports.append(
                 ConstraintReport(
-                    demand,
+                    task,
                     binding.dominant,
                     residual,
                     "m" if unit == "m" else "rad",

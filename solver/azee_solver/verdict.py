@@ -12,19 +12,19 @@ from azee_solver import kinematics
 from azee_solver.anatomy import Part
 from azee_solver.body import Body
 from azee_solver.constraint import Morph, Transpath, Trill
-from azee_solver.demand import Demand
 from azee_solver.footprint import Footprint
 from azee_solver.problems import Problem
 from azee_solver.reasons import Diagnosis
 from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
 from azee_solver.state import State
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
 
 def verdict(
     body: Body,
-    demands: Sequence[Demand],
+    tasks: Sequence[Task],
     problems: Sequence[Problem],
     footprints: Mapping[int, Footprint],
     state: State,
@@ -39,14 +39,14 @@ def verdict(
     limits = body.rig.coordinates
     q = np.clip(state.q, limits.lower, limits.upper)
     undefined = frozenset().union(*(r.undefined for r in state.results))
-    diagnosis = Diagnosis(body, demands, footprints, q)
-    constraints = tuple(_constraints(body, demands, q, diagnosis, undefined))
+    diagnosis = Diagnosis(body, tasks, footprints, q)
+    constraints = tuple(_constraints(body, tasks, q, diagnosis, undefined))
     q.setflags(write=False)
     free = frozenset().union(*(group.free for group in state.groups))
     explain_s = diagnosis.spent_s
     return SolveReport(
         q,
-        _problems(body, demands, problems, state, spent_s),
+        _problems(body, tasks, problems, state, spent_s),
         constraints,
         body.obstacles.overlaps(q),
         body.evaluations,
@@ -58,21 +58,21 @@ def verdict(
 
 def _constraints(
     body: Body,
-    demands: Sequence[Demand],
+    tasks: Sequence[Task],
     q: Array,
     diagnosis: Diagnosis,
     undefined: frozenset[int],
 ) -> Iterator[ConstraintReport]:
     """Yield what became of each constraint that joints can meet."""
-    measure, asked = body.evaluator, [demand.constraint for demand in demands]
+    measure, asked = body.evaluator, [task.constraint for task in tasks]
     frames = kinematics.frames(body.rig.chain, q)
-    for i, demand in enumerate(demands):
-        constraint = demand.constraint
+    for i, task in enumerate(tasks):
+        constraint = task.constraint
         if isinstance(constraint, Transpath | Trill) or (
             isinstance(constraint, Morph) and not measure.binding.is_skeletal(constraint)
         ):
             continue
-        residual, unit = measure.residual(constraint, frames, q, demand.phase, asked)
+        residual, unit = measure.residual(constraint, frames, q, task.phase, asked)
         tolerance = body.options.tolerance.of(constraint)
         met = bool(residual <= tolerance)
         why = None
@@ -80,12 +80,12 @@ def _constraints(
             explain = body.options.explain
             why = diagnosis.reason(i, i in undefined) if explain else "not looked into"
         dominant = measure.binding.dominant
-        yield ConstraintReport(demand, dominant, float(residual), unit, tolerance, met, why)
+        yield ConstraintReport(task, dominant, float(residual), unit, tolerance, met, why)
 
 
 def _problems(
     body: Body,
-    demands: Sequence[Demand],
+    tasks: Sequence[Task],
     problems: Sequence[Problem],
     state: State,
     spent_s: Mapping[tuple[int, ...], float],
@@ -98,8 +98,8 @@ def _problems(
         for p in group.problems:
             problem = problems[p]
             out[p] = ProblemReport(
-                problem.demands,
-                tuple(demands[i].constraint for i in problem.demands),
+                problem.tasks,
+                tuple(tasks[i].constraint for i in problem.tasks),
                 body.evaluator.binding.dominant,
                 problem.chain,
                 out[first] if p != first else None,

@@ -1,7 +1,7 @@
-"""What EAF 3.0 demands of a file, checked rule by rule: what EAFv3.0.xsd says of what we write.
+"""What EAF 3.0 tasks of a file, checked rule by rule: what EAFv3.0.xsd says of what we write.
 
 The schema says which elements stand in which order, which attributes they have and must have, and
-what refers to what. What ELAN demands beyond it: annotations of a tier do not overlap and have a
+what refers to what. What ELAN tasks beyond it: annotations of a tier do not overlap and have a
 length, and those of a tier that is included in another lie inside one of its annotations.
 """
 

@@ -114,7 +114,7 @@ def test_a_point_that_moves_is_dynamic_and_goes_by_minimum_jerk() -> None:
     moving = one(Place(TIP, Moving(Straight(), MIDDLE, RIGHT)))
     assert moving.dynamic
     assert [moving.phase(F(n, 2)) for n in range(3)] == [0, 0.5, 1]
-    assert moving.demand(F(1, 2)).phase == 0.5
+    assert moving.task(F(1, 2)).phase == 0.5
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,6 @@ from azee_solver.constraint import (
     Rotate,
     Transpath,
 )
-from azee_solver.demand import Demand
 from azee_solver.geometry import (
     Bone,
     FreePoint,
@@ -44,6 +43,7 @@ from azee_solver.geometry import (
     WorldPoint,
 )
 from azee_solver.report import ConstraintReport, SolveReport
+from azee_solver.task import Task
 
 F = Fraction
 S = Side.STRONG
@@ -80,14 +80,14 @@ class Recorder:
 
     def __call__(
         self,
-        demands: Sequence[Demand],
+        tasks: Sequence[Task],
         *,
         start: NDArray[np.float64],
         reference: NDArray[np.float64],
         search: Search = Search.WIDE,
         fixed: frozenset[int] = frozenset(),
     ) -> SolveReport:
-        constraints = tuple(d.constraint for d in demands)
+        constraints = tuple(d.constraint for d in tasks)
         self.asked.append(Asked(constraints, start, reference, search, fixed))
         q = np.array(reference)
         q[rig().coordinates.index["arm_R.flexion"]] += 0.2
@@ -95,7 +95,7 @@ class Recorder:
         q = np.clip(q, rig().coordinates.lower, rig().coordinates.upper)
         q[[*fixed]] = start[[*fixed]]
         reports = []
-        for d in demands:
+        for d in tasks:
             met = self.can(constraints) and d.constraint not in self.never
             why, residual = (None, 0.0) if met else ("no", 1.0)
             reports.append(ConstraintReport(d, Side.RIGHT, residual, "m", 1e-3, met, why))
@@ -143,9 +143,9 @@ def test_what_no_posture_can_join_parts_and_the_later_block_has_the_instant() ->
     later = Place(Site("T_TIP", S), RIGHT)
     animation = play(sync(block("A", "0", "1", HERE), block("B", "1", "1", later)), solver)
     at_one = [p for p in animation.report.postures if p.time == 1]
-    assert [[d.constraint for d in p.demands] for p in at_one] == [[later]]
+    assert [[d.constraint for d in p.tasks] for p in at_one] == [[later]]
     early = [p for p in animation.report.postures if p.origin is Origin.EARLY_END]
-    assert [[d.constraint for d in p.demands] for p in early] == [[HERE]]
+    assert [[d.constraint for d in p.tasks] for p in early] == [[HERE]]
     assert F(1, 2) <= early[0].time < 1
 
 
@@ -154,7 +154,7 @@ def test_what_one_posture_can_join_is_asked_of_one() -> None:
     later = Place(Site("T_TIP", S), RIGHT)
     animation = play(sync(block("A", "0", "1", HERE), block("B", "1", "1", later)), solver)
     (at_one,) = [p for p in animation.report.postures if p.time == 1]
-    assert {d.constraint for d in at_one.demands} == {HERE, later}
+    assert {d.constraint for d in at_one.tasks} == {HERE, later}
 
 
 def test_a_block_of_no_length_cannot_give_way() -> None:
@@ -171,7 +171,7 @@ def test_a_constraint_that_two_blocks_repeat_is_asked_once() -> None:
     assert all(a.constraints == (fist,) for a in solver.asked)
 
 
-def test_fewer_of_the_same_demands_need_no_solve() -> None:
+def test_fewer_of_the_same_tasks_need_no_solve() -> None:
     solver = Recorder()
     animation = play(sync(block("A", "0", "2", HERE), block("B", "0", "1", NOD)), solver)
     assert len(boundaries(solver)) == 1
@@ -237,8 +237,8 @@ def test_what_follows_a_new_posture_is_solved_with_it_and_the_trunk_stays() -> N
 
 def test_a_head_that_the_solver_levelled_stays_level_while_the_trunk_is_needed() -> None:
     class Leveller(Recorder):
-        def __call__(self, demands: Sequence[Demand], **how: object) -> SolveReport:
-            report = super().__call__(demands, **how)  # type: ignore[arg-type]
+        def __call__(self, tasks: Sequence[Task], **how: object) -> SolveReport:
+            report = super().__call__(tasks, **how)  # type: ignore[arg-type]
             q = np.array(report.coordinates)
             q[rig().coordinates.index["head.flexion"]] = -0.2
             return replace(report, coordinates=q)
@@ -256,10 +256,10 @@ def test_what_could_not_be_met_keeps_its_answer_while_something_else_is_solved_b
     animation = play(sync(block("A", "0", "2", HERE), block("N", "1", ".5", NOD)), solver)
     assert [a.constraints for a in boundaries(solver)] == [(HERE,), (NOD,)]
     at_one = next(p for p in animation.report.postures if p.time == 1)
-    assert [(c.demand.constraint, c.met) for c in at_one.report.constraints] == [
+    assert [(c.task.constraint, c.met) for c in at_one.report.constraints] == [
         (NOD, True), (HERE, False),
     ]  # fmt: skip
-    assert [d.constraint for d in at_one.demands] == [NOD, HERE]
+    assert [d.constraint for d in at_one.tasks] == [NOD, HERE]
 
 
 def test_a_head_comes_back_though_a_hand_goes_by_it() -> None:
@@ -273,10 +273,10 @@ def test_a_head_comes_back_though_a_hand_goes_by_it() -> None:
     head = rig().coordinates.index["head.flexion"]
 
     class Nodder(Recorder):
-        def __call__(self, demands: Sequence[Demand], **how: object) -> SolveReport:
-            report = super().__call__(demands, **how)  # type: ignore[arg-type]
+        def __call__(self, tasks: Sequence[Task], **how: object) -> SolveReport:
+            report = super().__call__(tasks, **how)  # type: ignore[arg-type]
             q = np.array(report.coordinates)
-            if any(d.constraint == NOD for d in demands):
+            if any(d.constraint == NOD for d in tasks):
                 q[head] = 0.1
             return replace(report, coordinates=q)
 
@@ -340,7 +340,7 @@ def test_a_moving_point_is_sampled_on_its_way() -> None:
     animation = play(sync(block("A", "0", "1", moving)), solver)
     samples = [p for p in animation.report.postures if p.origin is Origin.PATH]
     assert len(samples) > 1
-    assert all(0 < d.phase < 1 for p in samples for d in p.demands)
+    assert all(0 < d.phase < 1 for p in samples for d in p.tasks)
 
 
 def test_a_key_that_ends_one_path_is_solved_first_though_it_lies_on_another() -> None:

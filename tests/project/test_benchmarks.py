@@ -59,7 +59,7 @@ def test_problems_repeat_and_their_postures_solve_them(signer: Rig) -> None:
         maker, evaluator = Maker(rig), Evaluator(rig, Side.RIGHT)
         for kind in REACHABLE:
             (first,), (again, _) = maker.problems(kind, 1), maker.problems(kind, 2)
-            assert first.demands == again.demands
+            assert first.tasks == again.tasks
             assert first.truth is not None
             assert np.all(rig.coordinates.lower <= first.truth)
             assert np.all(first.truth <= rig.coordinates.upper)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from stick_body import stick_body
-from tree_sign import DIR, S, along, demands
+from tree_sign import DIR, S, along, tasks
 
 from azee_solver import block
 from azee_solver.attempt import _Attempt
@@ -41,7 +41,7 @@ def attempt(seed: int) -> _Attempt:
         along(DIR, Bone("palm", S), Vec(u, v, w)),
     ]
     body = Body(RIG, evaluator, IDLE, {}, OPTIONS, asked)
-    return _Attempt(body, dict(enumerate(demands(*asked))), IDLE, ARM, frozenset(), {})
+    return _Attempt(body, dict(enumerate(tasks(*asked))), IDLE, ARM, frozenset(), {})
 
 
 def test_soft_descents_end_lower_after_fewer_evaluations() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tree_sign import S, along, demands
+from tree_sign import S, along, tasks
 
 from azee_rig.rig import Rig
 from azee_solver.binding import Binding
@@ -40,7 +40,7 @@ SHAPES: dict[str, dict[str, float]] = {
 
 def run(rig: Rig, *constraints: Constraint) -> SolveReport:
     idle = rig.coordinates.idle
-    return solve(rig, demands(*constraints), dominant=Side.RIGHT, start=idle, reference=idle)
+    return solve(rig, tasks(*constraints), dominant=Side.RIGHT, start=idle, reference=idle)
 
 
 @pytest.mark.parametrize("shape", SHAPES)

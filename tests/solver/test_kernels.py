@@ -37,7 +37,6 @@ from azee_solver.constraint import (
     Relation,
     Rotate,
 )
-from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import (
     Bone,
@@ -52,6 +51,7 @@ from azee_solver.geometry import (
 from azee_solver.program import Cost, Program, Row
 from azee_solver.residuals import Tolerance, lower
 from azee_solver.tape import Tape
+from azee_solver.task import Task
 
 
 def slope(program: Program, x: NDArray[np.float64], v: int) -> float:
@@ -197,7 +197,7 @@ def test_a_miss_by_the_tolerance_costs_one(constraint: Constraint) -> None:
     case = Case(7)
     wanted, _ = case.evaluator.residual(constraint, case.rig.chain.frames(case.q), case.q)
     tolerance = Tolerance(float(wanted), float(wanted))
-    asked = {0: Demand(constraint)}
+    asked = {0: Task(constraint)}
     residuals = lower(case.tape, asked, tolerance, {})
     program = case.program(list(residuals.rows))
     value = program(case.q, np.empty(0))

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 from stick_body import stick_body
-from tree_sign import DIR, FINGERS, NRM, UP, S, W, along, demands, tree
+from tree_sign import DIR, FINGERS, NRM, UP, S, W, along, tasks, tree
 
 from azee_solver import describe
 from azee_solver.anatomy import anatomy
@@ -21,7 +21,6 @@ from azee_solver.constraint import (
     Transpath,
     Trill,
 )
-from azee_solver.demand import PRECEDENCE, Demand
 from azee_solver.geometry import (
     Bone,
     Dir,
@@ -36,6 +35,7 @@ from azee_solver.geometry import (
 from azee_solver.groups import grouped
 from azee_solver.ordering import ordered
 from azee_solver.problems import Problem, ProblemBuilder, Reach
+from azee_solver.task import PRECEDENCE, Task
 
 RIG = stick_body()
 BODY = anatomy(RIG.chain, RIG.coordinates)
@@ -45,7 +45,7 @@ MSSP = NamedPoint(SigningSpace.MSSP)
 DIGITS_R = {f"{f}_R_{k}" for f in ("thumb", *FINGERS) for k in (1, 2, 3)}
 
 
-def build(asked: list[Demand]) -> tuple[Problem, ...]:
+def build(asked: list[Task]) -> tuple[Problem, ...]:
     return ProblemBuilder(asked, Binding(RIG, Side.RIGHT), BODY).build()
 
 
@@ -53,16 +53,16 @@ def names(coordinates: frozenset[int]) -> set[str]:
     return {RIG.coordinates.names[v] for v in coordinates}
 
 
-def named(problem: Problem, asked: list[Demand]) -> str:
-    return describe.problem([asked[i].constraint for i in problem.demands], Side.RIGHT)
+def named(problem: Problem, asked: list[Task]) -> str:
+    return describe.problem([asked[i].constraint for i in problem.tasks], Side.RIGHT)
 
 
 def test_tree_is_the_paper_s_eleven_problems() -> None:
     asked = tree(thumb=True)
     problems = build(asked)
     assert len(problems) == 11
-    assert [p.demands for p in problems[:3]] == [(0, 1, 2), (3,), (4, 5, 6, 7)]
-    assert [p.demands for p in problems[3:]] == [(i,) for i in range(8, 16)]
+    assert [p.tasks for p in problems[:3]] == [(0, 1, 2), (3,), (4, 5, 6, 7)]
+    assert [p.tasks for p in problems[3:]] == [(i,) for i in range(8, 16)]
     called = [named(problem, asked) for problem in problems]
     assert called[0].startswith("place H_BACK_L at")
     assert called[1] == "place EL_R at PA_L"
@@ -81,43 +81,43 @@ def test_the_weak_hand_comes_first_however_it_is_written() -> None:
 
 def test_an_orientation_joins_the_placement_whose_chain_holds_its_bone() -> None:
     place = Place(Site("I_TIP", S), MSSP)
-    problems = build(demands(along(NRM, Bone("palm", S), UP), place))
-    assert [p.demands for p in problems] == [(1, 0)]
-    thumb = build(demands(place, along(DIR, Bone("thumb", S, 3), UP)))
-    assert [p.demands for p in thumb] == [(0,), (1,)]
+    problems = build(tasks(along(NRM, Bone("palm", S), UP), place))
+    assert [p.tasks for p in problems] == [(1, 0)]
+    thumb = build(tasks(place, along(DIR, Bone("thumb", S, 3), UP)))
+    assert [p.tasks for p in thumb] == [(0,), (1,)]
 
 
 def test_one_that_reads_what_another_moves_stands_alone_and_later() -> None:
     forearm, palm = Bone("f_arm", S), Bone("palm", S)
-    together = build(demands(along(DIR, palm, UP), along(DIR, forearm, UP)))
-    assert [p.demands for p in together] == [(0, 1)]
-    apart = build(demands(along(DIR, palm, Dir(forearm)), along(DIR, forearm, UP)))
-    assert sorted(p.demands for p in apart) == [(0,), (1,)]
+    together = build(tasks(along(DIR, palm, UP), along(DIR, forearm, UP)))
+    assert [p.tasks for p in together] == [(0, 1)]
+    apart = build(tasks(along(DIR, palm, Dir(forearm)), along(DIR, forearm, UP)))
+    assert sorted(p.tasks for p in apart) == [(0,), (1,)]
     same_target = build(
-        demands(
+        tasks(
             along(DIR, Bone("index", S, 1), Dir(palm)), along(NRM, Bone("index", S, 2), Nrm(palm))
         )
     )
-    assert [p.demands for p in same_target] == [(0, 1)]
+    assert [p.tasks for p in same_target] == [(0, 1)]
 
 
 def test_ties_go_by_start_then_kind_then_writing() -> None:
-    late = Demand(Place(Site("PA", S), MSSP), (), Fraction(1), 0)
-    orient = Demand(along(DIR, Bone("palm", W), UP), (), Fraction(0), 2)
-    look = Demand(Look(UP), (), Fraction(0), 1)
-    assert [p.demands for p in build([late, orient, look])] == [(2,), (1,), (0,)]
+    late = Task(Place(Site("PA", S), MSSP), (), Fraction(1), 0)
+    orient = Task(along(DIR, Bone("palm", W), UP), (), Fraction(0), 2)
+    look = Task(Look(UP), (), Fraction(0), 1)
+    assert [p.tasks for p in build([late, orient, look])] == [(2,), (1,), (0,)]
 
 
 def test_precedence_names_every_kind_once() -> None:
     kinds = [kind for group in PRECEDENCE for kind in group]
     assert len(kinds) == len(set(kinds)) == 8
-    trill = Demand(Trill(Bone("palm", S), UP, 4.0, 0.1))
-    path = Demand(Transpath(Site("PA", S), Straight()))
-    assert path.order < trill.order < Demand(Morph("smile", None, 1.0)).order
+    trill = Task(Trill(Bone("palm", S), UP, 4.0, 0.1))
+    path = Task(Transpath(Site("PA", S), Straight()))
+    assert path.order < trill.order < Task(Morph("smile", None, 1.0)).order
 
 
 def test_all_gazes_are_one_problem_of_eyes_and_head() -> None:
-    (problem,) = build(demands(Look(UP), LookAt(MSSP)))
+    (problem,) = build(tasks(Look(UP), LookAt(MSSP)))
     assert {name.split(".")[0] for name in names(problem.steps[Reach.ALL])} == {
         "neck",
         "head",
@@ -148,12 +148,12 @@ def test_all_gazes_are_one_problem_of_eyes_and_head() -> None:
     ],
 )  # fmt: skip
 def test_what_a_problem_may_move(constraint: Constraint, reach: Reach, bones: set[str]) -> None:
-    (problem,) = build(demands(constraint))
+    (problem,) = build(tasks(constraint))
     assert {name.split(".")[0] for name in names(problem.steps[reach])} == bones
 
 
 def test_a_fingertip_s_placement_bends_the_finger_only_where_it_must() -> None:
-    (problem,) = build(demands(Place(Site("I_TIP", S), MSSP)))
+    (problem,) = build(tasks(Place(Site("I_TIP", S), MSSP)))
     own, fingers = (names(problem.steps[r]) for r in (Reach.OWN, Reach.FINGERS))
     assert not any(name.startswith("index") for name in own)
     assert "index_R_1.flexion" in fingers - own
@@ -174,7 +174,7 @@ def test_digits_that_wait_for_an_arm_are_no_group_with_those_that_go_before_it()
         for v, name in enumerate(RIG.coordinates.names)
         if name.startswith(("back", "clav_R", "arm_R", "f_arm_R", "palm_R"))
     )
-    asked = demands(
+    asked = tasks(
         along(DIR, Bone("little", W, 1), Dir(Bone("palm", W))),
         Place(Site("I_TIP", W), MSSP),
         along(DIR, Bone("index", S, 1), Dir(Bone("palm", W))),
@@ -213,8 +213,8 @@ def test_a_head_that_a_constraint_turns_is_not_levelled() -> None:
     trunk_alone, with_head = (
         grouped(problems, [Reach.OWN] * len(problems), BODY)
         for problems in (
-            build(demands(along(DIR, Bone("back_2"), UP))),
-            build(demands(along(DIR, Bone("back_2"), UP), Rotate(Bone("head"), UP, 0.1))),
+            build(tasks(along(DIR, Bone("back_2"), UP))),
+            build(tasks(along(DIR, Bone("back_2"), UP), Rotate(Bone("head"), UP, 0.1))),
         )
     )
     assert "head.flexion" in names(trunk_alone[0].free)
@@ -232,7 +232,7 @@ def test_fixed_coordinates_are_never_free() -> None:
 
 def test_a_ring_of_dependencies_is_one_group() -> None:
     problems = build(
-        demands(
+        tasks(
             Place(Site("I_TIP", S), SitePoint(Site("I_TIP", W))),
             Place(Site("M_TIP", W), SitePoint(Site("PA", S))),
         )

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tree_sign import NRM, UP, S, W, along, demands, tree
+from tree_sign import NRM, UP, S, W, along, tasks, tree
 
 from azee_rig.rig import Rig
 from azee_solver.anatomy import Part
@@ -105,7 +105,7 @@ def test_ends_of_equal_cost_are_one_end(
 
 def run(rig: Rig, *constraints: Constraint) -> SolveReport:
     idle = rig.coordinates.idle
-    asked = demands(*constraints)
+    asked = tasks(*constraints)
     return solve(rig, asked, dominant=Side.RIGHT, start=idle, reference=idle)
 
 
@@ -166,7 +166,7 @@ def test_what_overlaps_only_by_a_margin_will_do(
     place = Place(Site("H_BACK", Side.STRONG), WorldPoint(0.0, 1.0, 0.3))
     body = Body(signer, evaluator, idle, {}, options, [place])
     arm = body.anatomy.of(Part.ARM)
-    attempt = _Attempt(body, dict(enumerate(demands(place))), idle, arm, frozenset(), {})
+    attempt = _Attempt(body, dict(enumerate(tasks(place))), idle, arm, frozenset(), {})
     tolerated_m, seen = options.overlap_m, set()
     for angle in np.radians(np.linspace(*degrees, 200)):
         q = idle.copy()

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tree_sign import DIR, NRM, UP, S, W, along, demands, straight_fingers, tree
+from tree_sign import DIR, NRM, UP, S, W, along, straight_fingers, tasks, tree
 
 from azee_rig.rig import Rig
 from azee_solver.constraint import Constraint, Place
@@ -39,7 +39,7 @@ DEEPEST_M = 3e-3
 
 def run(rig: Rig, *constraints: Constraint) -> SolveReport:
     idle = rig.coordinates.idle
-    asked = demands(*constraints)
+    asked = tasks(*constraints)
     return solve(rig, asked, dominant=Side.RIGHT, start=idle, reference=idle)
 
 
@@ -181,7 +181,7 @@ def test_every_limit_holds_to_the_bit(signer: Rig) -> None:
 
 def test_out_of_reach_is_the_nearest_posture_any_start_finds(signer: Rig) -> None:
     idle = signer.coordinates.idle
-    asked = demands(Place(Site("I_TIP", S), FreePoint(-0.5, 0.3, 1.2)))
+    asked = tasks(Place(Site("I_TIP", S), FreePoint(-0.5, 0.3, 1.2)))
     report = solve(signer, asked, dominant=Side.RIGHT, start=idle, reference=idle)
     assert not report.met
     reason = report.constraints[0].reason

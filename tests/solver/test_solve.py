@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from stick_body import stick_body
-from tree_sign import DIR, NRM, UP, S, W, along, demands, tree
+from tree_sign import DIR, NRM, UP, S, W, along, tasks, tree
 
 from azee_rig.rig import Rig
 from azee_solver.binding import BindingError
@@ -63,7 +63,7 @@ def run(*constraints: Constraint, rig: Rig = RIG, **choices: object) -> SolveRep
     options = replace(SolveOptions(), **choices)  # type: ignore[arg-type]
     return solve(
         rig,
-        demands(*constraints),
+        tasks(*constraints),
         dominant=Side.RIGHT,
         start=IDLE,
         reference=IDLE,
@@ -156,7 +156,7 @@ def test_what_no_constraint_moves_has_the_reference_s_value() -> None:
     reference[RIG.coordinates.index["f_arm_L.flexion"]] += 0.3
     report = solve(
         RIG,
-        demands(Place(Site("PA", S), FreePoint(-0.1, -0.2, 0.3))),
+        tasks(Place(Site("PA", S), FreePoint(-0.1, -0.2, 0.3))),
         dominant=Side.RIGHT,
         start=IDLE,
         reference=reference,
@@ -403,7 +403,7 @@ def test_the_same_question_gets_the_same_bytes() -> None:
 
 def mirrored(dominant: Side) -> SolveReport:
     x = 0.15 if dominant is Side.LEFT else -0.15
-    asked = demands(Place(Site("PA", S), FreePoint(x, -0.2, 0.3)), along(NRM, PALM, FORWARD))
+    asked = tasks(Place(Site("PA", S), FreePoint(x, -0.2, 0.3)), along(NRM, PALM, FORWARD))
     return solve(RIG, asked, dominant=dominant, start=IDLE, reference=IDLE)
 
 

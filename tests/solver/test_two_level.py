@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from stick_body import stick_body
-from tree_sign import DIR, NRM, UP, S, along, demands, tree
+from tree_sign import DIR, NRM, UP, S, along, tasks, tree
 
 from azee_rig.rig import Rig
 from azee_solver import attempt, two_level
@@ -24,7 +24,7 @@ PALM = Bone("palm", S)
 def run(rig: Rig, *constraints: Constraint, fixed: frozenset[int] = frozenset()) -> SolveReport:
     idle = rig.coordinates.idle
     return solve_two_level(
-        rig, demands(*constraints), dominant=Side.RIGHT, start=idle, reference=idle, fixed=fixed
+        rig, tasks(*constraints), dominant=Side.RIGHT, start=idle, reference=idle, fixed=fixed
     )
 
 
@@ -34,7 +34,7 @@ def iterations(report: SolveReport) -> list[int | None]:
 
 def offsets(report: SolveReport) -> list[float]:
     """In the paper's thresholds."""
-    return [c.residual / THRESHOLDS.of(c.demand.constraint) for c in report.constraints]
+    return [c.residual / THRESHOLDS.of(c.task.constraint) for c in report.constraints]
 
 
 def test_the_constants_are_the_paper_s() -> None:
@@ -104,7 +104,7 @@ def test_limits_presets_and_fixed_coordinates_hold() -> None:
 
 
 def test_the_tree_takes_eleven_problems_of_which_fingers_take_one_iteration(signer: Rig) -> None:
-    report = run(signer, *(demand.constraint for demand in tree(thumb=True)))
+    report = run(signer, *(task.constraint for task in tree(thumb=True)))
     counts = iterations(report)
     assert len(counts) == 11
     assert counts[3:] == [1] * 8

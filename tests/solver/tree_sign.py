@@ -5,7 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 
 from azee_solver.constraint import BoneAxis, Constraint, Orient, Place, Relation
-from azee_solver.demand import Demand
 from azee_solver.geometry import (
     Bone,
     Dir,
@@ -18,6 +17,7 @@ from azee_solver.geometry import (
     Vec,
     Vector,
 )
+from azee_solver.task import Task
 
 S, W = Side.STRONG, Side.WEAK
 UP = Vec(0.0, 1.0, 0.0)
@@ -31,8 +31,8 @@ def along(axis: BoneAxis, bone: Bone, vector: Vector) -> Orient:
     return Orient(axis, bone, Relation.ALONG, vector)
 
 
-def demands(*constraints: Constraint) -> list[Demand]:
-    return [Demand(c, ("SIGN",), Fraction(0), i) for i, c in enumerate(constraints)]
+def tasks(*constraints: Constraint) -> list[Task]:
+    return [Task(c, ("SIGN",), Fraction(0), i) for i, c in enumerate(constraints)]
 
 
 def straight_fingers(side: Side) -> list[Constraint]:
@@ -43,7 +43,7 @@ def straight_fingers(side: Side) -> list[Constraint]:
     return out
 
 
-def tree(point: Point = BESIDE_THE_FACE, *, thumb: bool = False) -> list[Demand]:
+def tree(point: Point = BESIDE_THE_FACE, *, thumb: bool = False) -> list[Task]:
     forearm, palm = Bone("f_arm", S), Bone("palm", S)
     constraints: list[Constraint] = [
         Place(Site("H_BACK", W), point),
@@ -58,4 +58,4 @@ def tree(point: Point = BESIDE_THE_FACE, *, thumb: bool = False) -> list[Demand]
             along(DIR, Bone("thumb", S, 3), Out(S)),
             along(NRM, Bone("thumb", S, 2), UP),
         ]
-    return demands(*constraints, *straight_fingers(S))
+    return tasks(*constraints, *straight_fingers(S))

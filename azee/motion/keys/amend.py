@@ -16,8 +16,8 @@ from azee.motion.tasks.limbs import LINKS, TRUNK, Limbs
 from azee.motion.tasks.posture import PostureSolver, Search
 from azee.motion.tasks.timed_task import Bound
 from azee_solver.constraint import Constraint
-from azee_solver.demand import Demand
 from azee_solver.report import SolveReport
+from azee_solver.task import Task
 
 SETTLED = 0.9
 """Share of the tolerance within which a constraint needs nothing where a key is added."""
@@ -40,7 +40,7 @@ class Amending:
         one: Instants,
         asking: Sequence[Bound],
         begun: Sequence[Bound],
-        demands: Sequence[Demand],
+        tasks: Sequence[Task],
     ) -> SolveReport:
         """Return the posture nearest to where the tracks are at one instant.
 
@@ -51,15 +51,15 @@ class Amending:
         missed = frozenset(b for b in asking if self._is_missed(b, one))
         for free in self._widening(asking, missed.union(begun)):
             fixed = self._all_but(free)
-            report = self.solver(demands, start=q, reference=q, search=Search.NEAR, fixed=fixed)
+            report = self.solver(tasks, start=q, reference=q, search=Search.NEAR, fixed=fixed)
             standing = _standing(asking, missed, free)
-            if all(c.met or c.demand.rank in standing for c in report.constraints):
+            if all(c.met or c.task.rank in standing for c in report.constraints):
                 return report
         assert report is not None
-        lost = {c.demand.constraint for c in report.constraints if not c.met}
+        lost = {c.task.constraint for c in report.constraints if not c.met}
         if lost <= self.hopeless:
             return report
-        wide = self.solver(demands, start=q, reference=q, fixed=fixed)
+        wide = self.solver(tasks, start=q, reference=q, fixed=fixed)
         left, less = (sum(not c.met for c in r.constraints) for r in (report, wide))
         return wide if less < left else report
 

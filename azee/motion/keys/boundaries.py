@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from azee.motion.curves.limb_curves import transition_s
-from azee.motion.keys.posture_solver import Poser, demands_of
+from azee.motion.keys.posture_solver import Poser, tasks_of
 from azee.motion.tasks.conflict import contradict
 from azee.motion.tasks.limbs import LINKS
 from azee.motion.tasks.posture import KeyPosture, Origin
@@ -111,7 +111,7 @@ def _shared(
     if contradict(closing, starting, binding):
         return None
     joint = poser.solve(time, [*opening, *closing])
-    if joint.met or joint.reused or len(demands_of(opening, time)) == len(joint.demands):
+    if joint.met or joint.reused or len(tasks_of(opening, time)) == len(joint.tasks):
         return joint
     return joint if poser.solve(time, opening).misses() >= joint.misses() else None
 

@@ -72,7 +72,7 @@ def plan(
     holders: Spans[frozenset[str]] = Spans(dict.fromkeys(needed))
     gauge = Gauge(evaluator, score, {}, first.giving_way)
     hopeless = frozenset(
-        c.demand.constraint for p in first.postures for c in p.report.constraints if not c.met
+        c.task.constraint for p in first.postures for c in p.report.constraints if not c.met
     )
     refinement = Refinement(gauge, keying, solver, holders, hopeless)
     work = _Work(refinement, known, ways, list(first.postures), frame_times)

@@ -19,21 +19,21 @@ from azee.motion.tasks.posture import KeyPosture, Origin, PostureSolver
 from azee.motion.tasks.spans import Spans
 from azee.motion.tasks.timed_task import Bound, limbs_asked
 from azee_rig.coordinates import Coordinates
-from azee_solver.demand import Demand
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
 
-def demands_of(
-    bounds: Iterable[Bound], time: Fraction, paths: Iterable[Demand] = ()
-) -> tuple[Demand, ...]:
+def tasks_of(
+    bounds: Iterable[Bound], time: Fraction, paths: Iterable[Task] = ()
+) -> tuple[Task, ...]:
     """Return what requirements ask at an instant, each distinct constraint once.
 
     A block that holds another repeats its constraints: twice the same morph must not add up.
     """
-    asked: dict[tuple[object, float], Demand] = {}
-    for demand in (*(b.demand(time) for b in bounds), *paths):
-        asked.setdefault((demand.constraint, demand.phase), demand)
+    asked: dict[tuple[object, float], Task] = {}
+    for task in (*(b.task(time) for b in bounds), *paths):
+        asked.setdefault((task.constraint, task.phase), task)
     return tuple(asked.values())
 
 
@@ -78,24 +78,24 @@ class Poser:
 
         Args: leaving: what ends here though its block does not.
         """
-        demands = demands_of(bounds, time)
+        tasks = tasks_of(bounds, time)
         begun = [*fresh(bounds, time), *leaving]
         asked = limbs_asked(bounds)
         passing = passing_limbs(time, bounds, self.travels.at(time))
         last = self.last
         current = self.rest.applied(self.current, last, time)
         relieved = self._relieved(time, bounds)
-        if last is not None and not relieved and _nothing_new(demands, last):
-            same = asked | (last.limbs if set(demands) == set(last.demands) else frozenset())
+        if last is not None and not relieved and _nothing_new(tasks, last):
+            same = asked | (last.limbs if set(tasks) == set(last.tasks) else frozenset())
             indices = [v for limb in same for v in self.limbs.members[limb]]
             if np.array_equal(current[indices], last.coordinates[indices]):
-                left = {d.constraint for d in demands}
-                kept = tuple(c for c in last.report.constraints if c.demand.constraint in left)
+                left = {d.constraint for d in tasks}
+                kept = tuple(c for c in last.report.constraints if c.task.constraint in left)
                 still = np.zeros(len(current))
                 keyed = self.keying.at_boundary(bounds, begun, still, still)
                 keyed |= same & last.limbs - asked
                 return KeyPosture(
-                    time, current, keyed, passing, tuple(bounds), demands,
+                    time, current, keyed, passing, tuple(bounds), tasks,
                     replace(last.report, constraints=kept), origin, reused=True,
                 )  # fmt: skip
         going_on = self._going_on(time, bounds)
@@ -105,19 +105,19 @@ class Poser:
         beside = None
         if last is not None and not relieved:
             beside = solve_beside(
-                last, bounds, demands, current, start, reference,
+                last, bounds, tasks, current, start, reference,
                 limbs=self.limbs, solver=self.solver,
             )  # fmt: skip
         if beside is None:
-            report = self.solver(demands, start=start, reference=reference)
+            report = self.solver(tasks, start=start, reference=reference)
         else:
-            demands, report = beside
+            tasks, report = beside
         keyed = self.keying.at_boundary(
             bounds, begun, report.coordinates - current, report.coordinates - reference
         )
         passing |= self.keying.following(bounds, begun)
         return KeyPosture(
-            time, report.coordinates, keyed, passing, tuple(bounds), demands, report, origin
+            time, report.coordinates, keyed, passing, tuple(bounds), tasks, report, origin
         )
 
     def accept(self, posture: KeyPosture) -> KeyPosture:
@@ -180,16 +180,16 @@ class Poser:
         return frozenset().union(*(b.limbs for b in going))
 
 
-def _nothing_new(demands: Iterable[Demand], last: KeyPosture) -> bool:
-    """Whether an earlier answer serves: the same demands, or fewer of which none could do better.
+def _nothing_new(tasks: Iterable[Task], last: KeyPosture) -> bool:
+    """Whether an earlier answer serves: the same tasks, or fewer of which none could do better.
 
-    What was missed then may be met now only if a demand that is gone claimed the same limbs.
+    What was missed then may be met now only if a task that is gone claimed the same limbs.
     """
-    before = {(d.constraint, d.phase) for d in last.demands}
-    now = {(d.constraint, d.phase) for d in demands}
+    before = {(d.constraint, d.phase) for d in last.tasks}
+    now = {(d.constraint, d.phase) for d in tasks}
     if not now <= before:
         return False
     left = {constraint for constraint, _ in now}
-    missed = {c.demand.constraint for c in last.report.constraints if not c.met} & left
+    missed = {c.task.constraint for c in last.report.constraints if not c.met} & left
     freed = frozenset[str]().union(*(b.limbs for b in last.bounds if b.constraint not in left))
     return not any(freed & (b.limbs | b.read_limbs) for b in last.bounds if b.constraint in missed)

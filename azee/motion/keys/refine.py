@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from azee.motion.curves.movement import Movement, movement
 from azee.motion.keys.amend import Amending
 from azee.motion.keys.boundaries import active
-from azee.motion.keys.posture_solver import demands_of
+from azee.motion.keys.posture_solver import tasks_of
 from azee.motion.keys.residual_monitor import Gauge, Instants, instants
 from azee.motion.tasks.keying import Keying, fresh
 from azee.motion.tasks.limbs import Limbs
@@ -98,19 +98,19 @@ class Refinement:
             bounds = active(self.gauge.score, time, self.gauge.giving_way)
             steering = self.gauge.steering(time)
             targets = (c.target([time], one.frames, self.gauge.evaluator)[0] for c in steering)
-            paths = [c.demand(t) for c, t in zip(steering, targets, strict=True)]
+            paths = [c.task(t) for c, t in zip(steering, targets, strict=True)]
             asking = [*bounds, *(c.travel.bound for c in steering)]
-            demands = demands_of(bounds, time, paths)
+            tasks = tasks_of(bounds, time, paths)
             begun = fresh(bounds, time) if origin is Origin.BOUNDARY else []
-            report = amending.solve(one, asking, begun, demands)
-            lost = {c.demand.constraint for c in report.constraints if not c.met}
+            report = amending.solve(one, asking, begun, tasks)
+            lost = {c.task.constraint for c in report.constraints if not c.met}
             missed = [b for b in asking if b.constraint in lost]
             keyed = self.keying.on_the_way([*begun, *missed], report.coordinates - q)
             through = every if passing is None else passing[i]
             out.append(
                 KeyPosture(
                     time, report.coordinates, keyed, through, tuple(asking),
-                    tuple(c.demand for c in report.constraints), report, origin,
+                    tuple(c.task for c in report.constraints), report, origin,
                 )
             )  # fmt: skip
         return out
@@ -182,7 +182,7 @@ class Refinement:
         for posture, row in zip(postures, rows.tolist(), strict=True):
             for answer in posture.report.constraints:
                 if not answer.met:
-                    found.setdefault(answer.demand.constraint, set()).add(row)
+                    found.setdefault(answer.task.constraint, set()).add(row)
         return found
 
     def _ratios(

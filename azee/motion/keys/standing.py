@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from azee.motion.tasks.limbs import TRUNK, Limbs
 from azee.motion.tasks.posture import KeyPosture, PostureSolver
 from azee.motion.tasks.timed_task import Bound
-from azee_solver.demand import Demand
 from azee_solver.report import SolveReport
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
@@ -25,26 +25,26 @@ Array = NDArray[np.float64]
 def solve_beside(
     last: KeyPosture,
     bounds: Sequence[Bound],
-    demands: Sequence[Demand],
+    tasks: Sequence[Task],
     current: Array,
     start: Array,
     reference: Array,
     *,
     limbs: Limbs,
     solver: PostureSolver,
-) -> tuple[tuple[Demand, ...], SolveReport] | None:
-    """Return the demands and an answer in which the limbs of lasting blocks have not moved.
+) -> tuple[tuple[Task, ...], SolveReport] | None:
+    """Return the tasks and an answer in which the limbs of lasting blocks have not moved.
 
     A head that none of the new ones speaks of keeps its own way if they can be met so.
 
     What the last posture could not meet, and no limb that moves now could help, is not asked
-    again: it keeps the answer it had. Its demands come last.
+    again: it keeps the answer it had. Its tasks come last.
 
     Args: current: (V,) where the body is. start, reference: (V,) for limbs that move.
     Returns: none if there is nothing that stands, or if what is new cannot be met beside it.
     """
     changed = limbs.touching(np.flatnonzero(current != last.coordinates).tolist())
-    before = {d.constraint for d in last.demands}
+    before = {d.constraint for d in last.tasks}
     kept = [
         b
         for b in bounds
@@ -60,10 +60,10 @@ def solve_beside(
         moving = np.array([name in free for name in limbs.names])[limbs.of_coordinate]
         if np.all(moving):
             continue
-        missed = {c.demand.constraint: c for c in last.report.constraints if not c.met}
+        missed = {c.task.constraint: c for c in last.report.constraints if not c.met}
         hopeless = {b.constraint for b in kept if b.constraint in missed and not b.limbs & free}
-        asked = [d for d in demands if d.constraint not in hopeless]
-        left = [d for d in demands if d.constraint in hopeless]
+        asked = [d for d in tasks if d.constraint not in hopeless]
+        left = [d for d in tasks if d.constraint in hopeless]
         report = solver(
             asked,
             start=np.where(moving, start, current),
@@ -71,7 +71,7 @@ def solve_beside(
             fixed=frozenset(np.flatnonzero(~moving).tolist()),
         )
         if report.met:
-            unanswered = [replace(missed[d.constraint], demand=d) for d in left]
+            unanswered = [replace(missed[d.constraint], task=d) for d in left]
             whole = replace(report, constraints=(*report.constraints, *unanswered))
             return (*asked, *left), whole
     return None

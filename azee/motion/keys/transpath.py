@@ -23,9 +23,9 @@ from azee.motion.tasks.timed_task import Bound, BoundScore
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
 from azee_solver.constraint import LookAt, Place, Transpath
-from azee_solver.demand import Demand
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side, WorldPoint
+from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
@@ -108,7 +108,7 @@ class Course:
             ]
         )
 
-    def demand(self, point: Array) -> Demand:
+    def task(self, point: Array) -> Task:
         """Return the placement of the site on a point of its path."""
         r = self.travel.bound.requirement
         place = Place(
@@ -116,7 +116,7 @@ class Course:
             WorldPoint(*(float(x) for x in point)),
             origin=r.constraint.origin,
         )
-        return Demand(place, r.path, r.interval.start, r.rank)
+        return Task(place, r.path, r.interval.start, r.rank)
 
 
 def travels(score: BoundScore, dominant: Side) -> tuple[Travel, ...]:

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from azee.motion.tasks.posture import PostureSolver, Search
 from azee_rig.rig import Rig
-from azee_solver.demand import Demand
 from azee_solver.geometry import Side
 from azee_solver.report import SolveReport
+from azee_solver.task import Task
 from azee_solver.two_level import solve_two_level
 
 
@@ -19,7 +19,7 @@ def two_level_solver(rig: Rig, dominant: Side) -> PostureSolver:
     """Return a solver of key postures that knows one way to search, wherever it is to look."""
 
     def answer(
-        demands: Sequence[Demand],
+        tasks: Sequence[Task],
         *,
         start: NDArray[np.float64],
         reference: NDArray[np.float64],
@@ -27,7 +27,7 @@ def two_level_solver(rig: Rig, dominant: Side) -> PostureSolver:
         fixed: frozenset[int] = frozenset(),
     ) -> SolveReport:
         return solve_two_level(
-            rig, demands, dominant=dominant, start=start, reference=reference, fixed=fixed
+            rig, tasks, dominant=dominant, start=start, reference=reference, fixed=fixed
         )
 
     return answer

@@ -1,4 +1,4 @@
-"""Which demands no single posture can meet, told from their symbols alone."""
+"""Which tasks no single posture can meet, told from their symbols alone."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from azee.motion.tasks.limbs import TRUNK
 from azee.motion.tasks.timed_task import Bound, limbs_asked
-from azee_solver.demand import Demand
+from azee_solver.task import Task
 
 if TYPE_CHECKING:
     from azee_solver.report import SolveReport
@@ -31,18 +31,18 @@ class Search(Enum):
 
 
 class PostureSolver(Protocol):
-    """Whatever turns the demands of one moment into a posture."""
+    """Whatever turns the tasks of one moment into a posture."""
 
     def __call__(
         self,
-        demands: Sequence[Demand],
+        tasks: Sequence[Task],
         *,
         start: Array,
         reference: Array,
         search: Search = Search.WIDE,
         fixed: frozenset[int] = frozenset(),
     ) -> SolveReport:
-        """Return the posture nearest to `reference` that meets the demands, found from `start`.
+        """Return the posture nearest to `reference` that meets the tasks, found from `start`.
 
         Args: start, reference: (V,) coordinates inside the limits, radians. fixed: coordinates
             that stay as in `start`.
@@ -67,9 +67,9 @@ class KeyPosture:
     """A posture at an instant, and the limbs that it fixes then.
 
     time: on the score's time line. coordinates: (V,). limbs: those it is a key of. passing: those
-    of them that move through it without stopping. bounds: the requirements it serves. demands:
+    of them that move through it without stopping. bounds: the requirements it serves. tasks:
     what the solver was given. report: its answer; for a posture that was taken over from an
-    earlier instant with the same demands, the answer given then, and `reused` is set.
+    earlier instant with the same tasks, the answer given then, and `reused` is set.
     """
 
     time: Fraction
@@ -77,7 +77,7 @@ class KeyPosture:
     limbs: frozenset[str]
     passing: frozenset[str]
     bounds: tuple[Bound, ...]
-    demands: tuple[Demand, ...]
+    tasks: tuple[Task, ...]
     report: SolveReport
     origin: Origin
     reused: bool = False
@@ -94,9 +94,9 @@ class KeyPosture:
 
     @property
     def met(self) -> bool:
-        """Whether every demand is within its tolerance."""
+        """Whether every task is within its tolerance."""
         return all(c.met for c in self.report.constraints)
 
     def misses(self) -> int:
-        """Count the demands out of tolerance."""
+        """Count the tasks out of tolerance."""
         return sum(not c.met for c in self.report.constraints)

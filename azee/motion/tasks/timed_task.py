@@ -16,9 +16,9 @@ from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
 from azee_solver.binding import Binding
 from azee_solver.constraint import Constraint, LookAt, Morph, Place, Rotate, Transpath, Trill
-from azee_solver.demand import Demand
 from azee_solver.footprint import footprint
 from azee_solver.geometry import Between, Moving, Point, VTranslate, WorldPoint
+from azee_solver.task import Task
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,11 +43,11 @@ class Bound:
         """What is required."""
         return self.requirement.constraint
 
-    def demand(self, time: Fraction) -> Demand:
+    def task(self, time: Fraction) -> Task:
         """Return what it asks of a posture at an instant."""
         r = self.requirement
         phase = self.phase(time) if self.dynamic else 0.0
-        return Demand(r.constraint, r.path, r.interval.start, r.rank, phase)
+        return Task(r.constraint, r.path, r.interval.start, r.rank, phase)
 
     def phase(self, time: Fraction) -> float:
         """How far a dynamic point has got, 0 to 1: minimum jerk over its own block."""

@@ -1,4 +1,4 @@
-"""Demands: the constraints in force at one moment, each with where it stands in the score."""
+"""Tasks: the constraints in force at one moment, each with where it stands in the score."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _PLACE = {kind: place for place, kinds in enumerate(PRECEDENCE) for kind in kind
 
 
 @dataclass(frozen=True, slots=True)
-class Demand:
+class Task:
     """A constraint that is active at the moment that is solved.
 
     path: names of the blocks that lead to it, outermost first. start_s: when its block starts, on

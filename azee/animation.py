@@ -30,8 +30,8 @@ from azee_rig.rig import Rig
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
-from azee_solver.report import SolveReport
 from azee_solver.solve import solve
+from azee_solver.solve_report import SolveReport
 from azee_solver.task import Task
 
 Array = NDArray[np.float64]

@@ -26,8 +26,8 @@ from azee_solver.anatomy import Part, anatomy
 from azee_solver.constraint import BoneAxis, Constraint, Orient, Place, Relation
 from azee_solver.geometry import Bone, Side, Site, Vec, WorldPoint
 from azee_solver.options import SolveOptions
-from azee_solver.report import SolveReport
 from azee_solver.solve import solve
+from azee_solver.solve_report import SolveReport
 from azee_solver.task import Task
 
 Array = NDArray[np.float64]

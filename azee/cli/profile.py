@@ -16,7 +16,7 @@ import click
 
 if TYPE_CHECKING:
     from azee.quality.motion_report import MotionReport
-    from azee_solver.report import ProblemReport
+    from azee_solver.solve_report import ProblemReport
 
 STARTED = "Python and the command"
 SOLVER_STEPS = (

@@ -13,14 +13,14 @@ from scipy.optimize import least_squares
 from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
 from azee_solver.broadphase import Collisions
-from azee_solver.descent import descended
+from azee_solver.descent import soft_descent
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
 from azee_solver.program import Cost, Program
-from azee_solver.report import SolveReport
 from azee_solver.residuals import lower
 from azee_solver.solve import solve
+from azee_solver.solve_report import SolveReport
 from azee_solver.starts import starts
 from azee_solver.tape import Tape
 from azee_solver.two_level import solve_two_level
@@ -53,7 +53,7 @@ FEW_STARTS = 4
 
 
 def ours(options: SolveOptions) -> Method:
-    """`solve`: problems built, grouped, solved, widened, settled and measured again."""
+    """`solve`: problems built, grouped, solved, widened, prioritised and measured again."""
 
     def method(rig: Rig, problem: Problem) -> Answer:
         idle = rig.coordinates.idle
@@ -85,7 +85,7 @@ def _answer(report: SolveReport, clock: Clock) -> Answer:
 
 
 def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
-    """Our descents alone, ease and comfort on: the clock starts when the problem is laid out."""
+    """Our descents alone, with posture cost: the clock starts when the problem is laid out."""
     idle = np.array(rig.coordinates.idle)
     evaluator = Evaluator(rig, Side.RIGHT)
     moving = anatomy(rig.chain, rig.coordinates).moved_by(problem.free)
@@ -104,7 +104,7 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
     best, worst = idle[free], math.inf
     clock = Clock()
     for start in known:
-        x = descended(program, start, FULL)
+        x = soft_descent(program, start, FULL)
         program(x, np.empty(0))
         ratio = max(residuals.ratios(program.lengths(), asked, FULL.tolerance).values())
         if ratio < worst:
@@ -112,7 +112,9 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
         if worst <= 1.0:
             break
     rounds = FULL.finish_work // len(best)
-    best = program.polish(best, rounds=rounds, tolerance=FULL.finish_tolerance, going_on=True)
+    best = program.gauss_newton(
+        best, rounds=rounds, tolerance=FULL.finish_tolerance, keep_damping=True
+    )
     seconds = clock.seconds()
     q = idle
     q[free] = best

@@ -25,8 +25,8 @@ from azee.score.score import Key, leaves
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver.geometry import Side
-from azee_solver.report import SolveReport
 from azee_solver.solve import solve
+from azee_solver.solve_report import SolveReport
 from azee_solver.task import Task
 
 HERE = Path(__file__).parent

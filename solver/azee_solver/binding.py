@@ -79,7 +79,7 @@ class Binding:
     def presets(self, constraints: Iterable[Constraint]) -> dict[int, float]:
         """Angles that all skeletal morphs in force at one moment ask for together.
 
-        They add, and thumbs that they would put into their hand give way; see `handshape`.
+        They add, and thumbs that they would put into their hand move aside; see `handshape`.
         """
         morphs = tuple(constraint for constraint in constraints if isinstance(constraint, Morph))
         if morphs not in self._together:

@@ -57,8 +57,8 @@ class Body:
         self.anatomy = anatomy(self.rig.chain, self.rig.coordinates)
         self.obstacles = Obstacles(self.evaluator.binding, self.anatomy, self.constraints)
 
-    def ghost(self, reference: Array) -> Body:
-        """Return a body that nothing is in the way of, nor presets, and that is always at ease."""
+    def relaxed(self, reference: Array) -> Body:
+        """Return the body without collision, handshapes and joint-limit cost."""
         options = replace(
             self.options,
             posture=1e-3,
@@ -70,7 +70,7 @@ class Body:
         return replace(self, reference=reference, presets={}, options=options, evaluations=0)
 
     def cost(self, *, gazes: bool) -> Cost:
-        """Posture and comfort weights: presets hold like constraints, led eyes turn first."""
+        """Posture and joint-limit cost: presets hold like constraints, led eyes turn first."""
         if gazes not in self._weights:
             self._weights[gazes] = self._weighed(gazes=gazes)
         reference = np.array(self.reference)

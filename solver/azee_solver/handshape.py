@@ -1,7 +1,7 @@
 """Handshapes that fit the hand: a thumb lies on the fingers, not in them.
 
 Presets say where digits go, by angles that know nothing of flesh: the angles of a straight thumb
-put it into the palm, those of a fist through the index. Here thumbs give way, each in its own
+put it into the palm, those of a fist through the index. Here thumbs move aside, each in its own
 joints and as little as will do, before anything else is solved; the angles that come of it are
 what the presets then ask for. The rest of the body has no part in this, so that a handshape is
 the same wherever the hand is.
@@ -34,8 +34,8 @@ KEEP = 4.0
 """Cost of a squared radian away from a preset, beside which an overlap of 1 mm costs 1."""
 OVERLAP = 1e6
 ROUNDS, TOLERANCE = 80, 1e-9
-GAVE_WAY_RAD = 1e-4
-"""A thumb that has moved by less has nothing in its way."""
+MOVED_RAD = 1e-4
+"""A thumb that moves by less has nothing in its way."""
 MARGIN_M, PALM_MARGIN_M = 0.003, 0.006
 """Capsules hold most of the skin, not all: so far a thumb stays away from fingers and palm."""
 
@@ -79,8 +79,8 @@ def _fitted(rig: Rig, side: str, presets: tuple[tuple[int, float], ...]) -> Mapp
         _within(rig, side, found),
         Cost(q, np.full(len(q), KEEP), np.zeros(len(q)), OVERLAP),
     )
-    x = program.polish(q[program.free], rounds=ROUNDS, tolerance=TOLERANCE)
-    if np.abs(x - q[program.free]).max() < GAVE_WAY_RAD:
+    x = program.gauss_newton(q[program.free], rounds=ROUNDS, tolerance=TOLERANCE)
+    if np.abs(x - q[program.free]).max() < MOVED_RAD:
         return {}
     return {int(v): float(angle) for v, angle in zip(program.free, x, strict=True)}
 

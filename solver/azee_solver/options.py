@@ -1,47 +1,50 @@
-"""Choices of a solver, with the values that measurement settled."""
+"""Options of the solver, with defaults that measurement settled."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
-from azee_solver.residuals import Tolerance
+from azee_solver.tolerance import Tolerance
 
 
 @dataclass(frozen=True, slots=True)
 class SolveOptions:
-    """How exactly, how humanly and how long.
+    """How exactly, how comfortably and how long to solve."""
 
-    tolerance: what counts as met. A miss by it costs 1 in the objective, beside which stand
-    posture: per squared radian away from the reference, times the coordinate's squared stiffness;
-    comfort: per squared part of a half range beyond 80 % of it; overlap: per squared metre that
-    two capsules overlap, 0 to let bodies pass through each other; overlap_m: what is tolerated of
-    that. approach_evaluations end NLopt's part of a descent that begins soft, max_evaluations one
-    at the full price, descent_tolerance either; polish_rounds and polish_tolerance the
-    Gauss-Newton steps after it, finish_work (steps times coordinates) and
-    finish_tolerance those that the best of all descents ends with. further_starts: of the Halton
-    sequence. patience: so many descents in a row that gain nothing end the search; twice as many
-    if no wider problem can take over. explain: find out why what misses misses, by solving
-    smaller problems. fixed: coordinates that must not move from the start. inertia: how many times
-    more than to the reference a posture is drawn to the start, 0 for a posture that stands alone:
-    along a movement it spreads over many steps what would else be a jump, such as a trunk that is
-    no longer needed.
-    """
-
-    tolerance: Tolerance = field(default_factory=lambda: Tolerance(1e-3, math.radians(0.5)))
+    tolerance: Tolerance = field(default_factory=Tolerance)
+    """What counts as met. A miss by it costs 1 in the objective."""
     posture: float = 1.0
+    """Cost of a squared radian from the reference, times the coordinate's squared stiffness."""
     comfort: float = 3.0
+    """Joint-limit cost: of a squared part of a half range beyond 80 % of it."""
     overlap: float = 0.25e6
+    """Cost of a squared metre that two capsules overlap; 0 lets bodies pass through each other."""
     overlap_m: float = 3e-3
+    """Overlap that is tolerated, metres."""
     approach_evaluations: int = 4
+    """Most evaluations of NLopt in the first stage of a soft descent."""
     max_evaluations: int = 600
+    """Most evaluations of NLopt in a stiff descent."""
     descent_tolerance: float = 1e-2
-    polish_rounds: int = 20
-    polish_tolerance: float = 1e-4
+    """Relative gain below which NLopt, and the first stage of a soft descent, end."""
+    gauss_newton_rounds: int = 20
+    """Most Gauss-Newton steps after either."""
+    gauss_newton_tolerance: float = 1e-4
+    """Relative gain below which these end."""
     finish_work: int = 2500
+    """Most Gauss-Newton steps times coordinates that the best of all descents ends with."""
     finish_tolerance: float = 1e-6
+    """Relative gain below which these end."""
     further_starts: int = 6
+    """Starts from the Halton sequence after all others."""
     patience: int = 6
+    """Descents in a row that gain nothing and end a search; twice as many in the last search."""
     explain: bool = True
+    """Whether to find out why a constraint is missed, by solving smaller problems."""
     fixed: frozenset[int] = frozenset()
+    """Coordinates that must not move from the start."""
     inertia: float = 0.0
+    """How many times more than to the reference a posture is drawn to the start.
+
+    0 for a posture that stands alone. Along a movement, inertia spreads over many steps what would
+    else be a jump, such as a trunk that is no longer needed (ADR 26)."""

@@ -34,7 +34,7 @@ ARMPIT = 0.6
 """So much of the upper arm, from the shoulder, always lies against the trunk and is not counted."""
 DIGITS = ("thumb", "index", "middle", "ring", "little")
 CONTACT_M, PALM_CONTACT_M = 0.02, 0.055
-"""So far about a meant contact flesh gives way, which skin that follows bones does not show; and
+"""So far about a meant contact flesh yields, which skin that follows bones does not show; and
 about one on a palm, which is hollow: its edges stand out around what lies in it."""
 OWN_WEIGHT = 0.9
 """A vertex belongs to a limb if so much of its skin weight does."""

@@ -70,8 +70,8 @@ class Program:
     """A problem in one block of words, and the objective that runs on it.
 
     ints, reals: the block, read as either; see `kernels`. rows: as given, with indices into the
-    tape's used entries. free: (n,) coordinates that x stands for. lower, upper: (n,). prices: what
-    part of its price a miss costs, and what a squared metre of overlap, (1,) each.
+    tape's used entries. free: (n,) coordinates that x stands for. lower, upper: (n,). weights: the
+    factor of all residuals, and the weight of a squared metre of overlap, (1,) each.
     """
 
     def __init__(
@@ -118,7 +118,7 @@ class Program:
         self.section(k.OVERLAP_WEIGHT)[0] = cost.overlap
         self.section(k.POSITIONS)[:] = tape.frames.positions.ravel()
         self.section(k.ROTATIONS)[:] = tape.frames.rotations.ravel()
-        self.prices = self.section(k.MISS_SHARE), self.section(k.OVERLAP_WEIGHT)
+        self.weights = self.section(k.MISS_SHARE), self.section(k.OVERLAP_WEIGHT)
         self._damping, self._tolerance = self.section(k.DAMPING), self.section(k.TOLERANCE)
         self._count = len(self.free)
         self._rounds = self.ints[self.layout.sections[k.ROUNDS]]
@@ -146,7 +146,7 @@ class Program:
         """How often the objective has been worked out so far."""
         return int(self.ints[self.ints[k.COUNT]])
 
-    def descend(self, start: Array, *, max_evaluations: int, tolerance: float) -> Array:
+    def lbfgs(self, start: Array, *, max_evaluations: int, tolerance: float) -> Array:
         """Return the lowest point (n,) that NLopt comes by from a start, inside the bounds."""
         found = self.compiled.minimise(
             start, max_evaluations=max_evaluations, tolerance=tolerance
@@ -160,13 +160,15 @@ class Program:
         )
         return found.x
 
-    def polish(self, x: Array, *, rounds: int, tolerance: float, going_on: bool = False) -> Array:
+    def gauss_newton(
+        self, x: Array, *, rounds: int, tolerance: float, keep_damping: bool = False
+    ) -> Array:
         """Return where damped Gauss-Newton steps lead from a point (n,) inside the bounds.
 
-        Args: rounds: how many at most. tolerance: relative gain that ends it. going_on: x is
-            where the last call has led: steps are as bold as they were there.
+        Args: rounds: how many at most. tolerance: relative gain that ends it. keep_damping: x is
+            where the last call has led: start with the damping that it ended with.
         """
-        if not going_on:
+        if not keep_damping:
             self._damping[0] = k.FIRST_DAMPING
         self._at[:] = x
         self._tolerance[0] = tolerance

@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver import describe
-from azee_solver.attempt import solve_group
 from azee_solver.body import Body
 from azee_solver.constraint import Morph, Place
 from azee_solver.footprint import Footprint
+from azee_solver.group_search import solve_group
 from azee_solver.result import Result
 from azee_solver.task import Task
 
@@ -54,9 +54,9 @@ class Diagnosis:
         return replace(self.body, reference=self.q)
 
     @cached_property
-    def ghost(self) -> Body:
-        """A body that nothing is in the way of, nor its own ease."""
-        return self.body.ghost(self.q)
+    def relaxed(self) -> Body:
+        """The body without collision, handshapes and joint-limit cost."""
+        return self.body.relaxed(self.q)
 
     def reason(self, i: int, undefined: bool) -> str:
         """Return why task i is not met, in one phrase."""
@@ -74,10 +74,10 @@ class Diagnosis:
         held = self._free([i], everything=True) & self.firm.options.fixed
         if held and not self._free([i]):
             return "the coordinates that could meet it are held fixed"
-        alone = self._alone(self.ghost, [i])
+        alone = self._alone(self.relaxed, [i])
         if not alone.missed():
             return self._others(i)
-        if held and not self._alone(self.ghost, [i], everything=True).missed():
+        if held and not self._alone(self.relaxed, [i], everything=True).missed():
             bones = sorted({self.firm.anatomy.names[v].split(".")[0] for v in held})
             return f"needs {describe.sentence(bones)}, held fixed"
         left = alone.ratios[i] * self.firm.options.tolerance.of(constraint)
@@ -143,9 +143,9 @@ class Diagnosis:
         limits = self.firm.rig.coordinates
         lower, upper = np.array(limits.lower), np.array(limits.upper)
         lower[v], upper[v] = lower[v] - math.pi, upper[v] + math.pi
-        wide = replace(self.ghost.rig, coordinates=replace(limits, lower=lower, upper=upper))
+        wide = replace(self.relaxed.rig, coordinates=replace(limits, lower=lower, upper=upper))
         body = Body(
-            wide, self.ghost.evaluator, self.q, {}, self.ghost.options, self.ghost.constraints
+            wide, self.relaxed.evaluator, self.q, {}, self.relaxed.options, self.relaxed.constraints
         )
         chosen = {i: self.tasks[i]}
         result = solve_group(
@@ -179,14 +179,14 @@ class Diagnosis:
             return f"the body is in the way: {self._touching(alone)}"
         rivals = self._rivals(i)
         for k in rivals:
-            if self._alone(self.ghost, [i, k]).missed():
+            if self._alone(self.relaxed, [i, k]).missed():
                 return f"conflicts with {self._names([k])}"
         everything = [i, *rivals]
-        if self._alone(self.ghost, everything).missed():
+        if self._alone(self.relaxed, everything).missed():
             guilty = [
                 k
                 for k in rivals
-                if not self._alone(self.ghost, [j for j in everything if j != k]).missed()
+                if not self._alone(self.relaxed, [j for j in everything if j != k]).missed()
             ]
             return f"conflicts with {self._names(guilty or rivals)} together"
         held = self._fixed_by(i)

@@ -16,20 +16,9 @@ from azee_solver.geometry import SitePoint
 from azee_solver.program import Row
 from azee_solver.tape import DegenerateError, Tape
 from azee_solver.task import Task
+from azee_solver.tolerance import Tolerance
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class Tolerance:
-    """What counts as met: metres for places, radians for directions."""
-
-    length_m: float
-    angle_rad: float
-
-    def of(self, constraint: Constraint) -> float:
-        """Return the tolerance of a constraint, in the unit of its residual."""
-        return self.length_m if isinstance(constraint, Place) else self.angle_rad
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,18 +48,18 @@ Ratios = dict[int, float]
 
 
 def lower(
-    tape: Tape, tasks: Mapping[int, Task], tolerance: Tolerance, ease: Mapping[int, float]
+    tape: Tape, tasks: Mapping[int, Task], tolerance: Tolerance, factors: Mapping[int, float]
 ) -> Residuals:
     """Return the rows of tasks, weighted so that a miss by the tolerance costs 1.
 
-    Args: ease: factor of a task's weight, where it is not 1.
+    Args: factors: of the tasks' weights, where they are not 1.
     """
     rows: list[Row] = []
     runs: dict[int, tuple[int, int]] = {}
     undefined = set()
     for i, task in tasks.items():
         start = len(rows)
-        weight = ease.get(i, 1.0) / tolerance.of(task.constraint) ** 2
+        weight = factors.get(i, 1.0) / tolerance.of(task.constraint) ** 2
         try:
             rows += _rows(tape, task, weight)
         except DegenerateError:

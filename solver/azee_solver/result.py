@@ -14,20 +14,18 @@ Array = NDArray[np.float64]
 
 GAIN = 0.8
 """A descent has gained something if it brings the cost below this part of the best."""
-
-
 SAME = 0.01
-"""Costs that differ by no more than this part are those of one end."""
+"""Costs that differ by no more than this part are those of one and the same end."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Result:
     """A posture that a group of problems ended in.
 
-    q: (V,). ratios: residual per task, in tolerances. cost: sum of their squares. overlap_m: of
-    the capsules, deepest. undefined: tasks whose target has no direction. eased: tasks that
-    were given up in favour of others; they are not in the cost. again: how many other descents
-    ended there too.
+    q: (V,) radians. ratios: residual per task, in tolerances. cost: sum of their squares.
+    overlap_m: deepest overlap of two capsules. undefined: tasks whose target has no direction.
+    given_up: tasks whose weight was lowered in favour of others; they are not in the cost.
+    repeats: how many other descents ended there too.
     """
 
     q: Array
@@ -35,20 +33,20 @@ class Result:
     cost: float
     overlap_m: float
     undefined: frozenset[int]
-    eased: frozenset[int] = frozenset()
-    again: int = 0
+    given_up: frozenset[int] = frozenset()
+    repeats: int = 0
 
     def missed(self) -> frozenset[int]:
         """Tasks that are not met."""
         return frozenset(i for i, r in self.ratios.items() if not r <= 1.0) | self.undefined
 
+    def unmet(self) -> frozenset[int]:
+        """Tasks that are not met and should be: neither undefined nor given up."""
+        return self.missed() - self.undefined - self.given_up
+
     def worst(self) -> float:
         """Greatest miss of a task that was not given up, in tolerances."""
-        return max((r for i, r in self.ratios.items() if i not in self.eased), default=0.0)
-
-    def lost(self) -> frozenset[int]:
-        """Tasks that are not met and should be: neither without direction nor given up."""
-        return self.missed() - self.undefined - self.eased
+        return max((r for i, r in self.ratios.items() if i not in self.given_up), default=0.0)
 
 
 def excess(result: Result, options: SolveOptions) -> float:
@@ -57,15 +55,15 @@ def excess(result: Result, options: SolveOptions) -> float:
 
 
 def merit(result: Result, options: SolveOptions) -> tuple[int, float]:
-    """Return misses, then cost with overlap: the less the better."""
-    return len(result.lost()), result.cost + excess(result, options) ** 2
+    """Return the number of unmet tasks, then the cost with overlap: the less the better."""
+    return len(result.unmet()), result.cost + excess(result, options) ** 2
 
 
 def gains(one: tuple[int, float], best: tuple[int, float]) -> bool:
-    """Whether a merit is so much better than the best that looking on may be worth it."""
+    """Whether a merit is so much better than the best that more descents may be worth it."""
     return one[0] < best[0] or (one[0] == best[0] and one[1] < GAIN * best[1])
 
 
-def is_again(one: tuple[int, float], best: tuple[int, float]) -> bool:
+def is_repeat(one: tuple[int, float], best: tuple[int, float]) -> bool:
     """Whether two merits are, as far as one can tell, those of one and the same end."""
     return one[0] == best[0] and abs(one[1] - best[1]) <= SAME * best[1]

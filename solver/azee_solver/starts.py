@@ -53,7 +53,7 @@ def starts(
     yield from typical(coordinates, free)
     for k in range(1, further + 1):
         part = np.array([_halton(k, base) for base in _PRIMES[: len(free)]])
-        # The middle of the range: the ends are seldom where a body is at ease.
+        # The middle of the range: the ends are seldom comfortable.
         yield lower + (0.15 + 0.7 * part) * (upper - lower)
 
 

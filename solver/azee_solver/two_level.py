@@ -21,15 +21,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver.anatomy import Part
-from azee_solver.attempt import solve_group
 from azee_solver.body import Body
 from azee_solver.constraint import Morph, Place, Transpath, Trill
 from azee_solver.evaluate import Evaluator
+from azee_solver.group_search import solve_group
 from azee_solver.options import SolveOptions
 from azee_solver.problems import Problem, ProblemBuilder, Reach
-from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
-from azee_solver.residuals import Tolerance
+from azee_solver.solve_report import ConstraintReport, ProblemReport, SolveReport
 from azee_solver.task import Task
+from azee_solver.tolerance import PAPER
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -38,8 +38,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 MAX_ITERATIONS = 35
-THRESHOLDS = Tolerance(length_m=0.01, angle_rad=math.radians(5.0))
-"""MAX_ITER, PLACE_THRSHLD and ROT_THRSH of the paper's §4.5."""
+"""MAX_ITER of the paper's §4.5."""
 
 STAY = 1e-3
 """Per squared radian away from where a constraint found the body: chooses among the postures that
@@ -98,7 +97,7 @@ class _Keyframe:
             evaluator.binding.check(constraint)
         self.presets = evaluator.binding.presets(self.constraints)
         options = SolveOptions(
-            tolerance=THRESHOLDS, posture=STAY, comfort=0.0, overlap=0.0, overlap_m=math.inf
+            tolerance=PAPER, posture=STAY, comfort=0.0, overlap=0.0, overlap_m=math.inf
         )
         self.q = np.clip(reference, limits.lower, limits.upper)
         self.body = Body(rig, evaluator, self.q, {}, options, self.constraints)
@@ -140,14 +139,14 @@ class _Keyframe:
             self.body.reference = self.q
             alone = {i: self.tasks[i]}
             found = solve_group(
-                self.body, alone, self.q, chain, first=[self.q], only_first=True, thorough=False
+                self.body, alone, self.q, chain, first=[self.q], only_first=True, further=False
             )
             self.q = np.array(found.q)
 
     def _offset(self, i: int) -> float:
         """How far a constraint is from its goal, in thresholds (`offset_to_goal`); NaN: nowhere."""
         residual, _ = self._residual(i)
-        return residual / THRESHOLDS.of(self.constraints[i])
+        return residual / PAPER.of(self.constraints[i])
 
     def _residual(self, i: int) -> tuple[float, str]:
         task = self.tasks[i]
@@ -199,7 +198,7 @@ class _Keyframe:
             residual, unit = self._residual(i)
             tolerance = SolveOptions().tolerance.of(task.constraint)
             met = residual <= tolerance
-            reason = CONTENT if residual < THRESHOLDS.of(task.constraint) else GIVEN_UP
+            reason = CONTENT if residual < PAPER.of(task.constraint) else GIVEN_UP
             reports.append(
                 ConstraintReport(
                     task,

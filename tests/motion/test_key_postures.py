@@ -42,7 +42,7 @@ from azee_solver.geometry import (
     Vec,
     WorldPoint,
 )
-from azee_solver.report import ConstraintReport, SolveReport
+from azee_solver.solve_report import ConstraintReport, SolveReport
 from azee_solver.task import Task
 
 F = Fraction

@@ -1,4 +1,4 @@
-"""Descents: what their first, soft part is good for, and that weights come back."""
+"""Descents: what their first, soft stage is good for, and that weights come back."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from stick_body import stick_body
 from tree_sign import DIR, S, along, tasks
 
 from azee_solver import block
-from azee_solver.attempt import _Attempt
 from azee_solver.body import Body
 from azee_solver.constraint import Constraint, Place
-from azee_solver.descent import descended, pressed, weighing
+from azee_solver.descent import scaled_weights, soft_descent, stiff_descent
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Bone, Side, Site, Vec, WorldPoint
+from azee_solver.group_search import GroupSearch
 from azee_solver.options import SolveOptions
 
 RIG = stick_body()
@@ -26,7 +26,7 @@ ARM = frozenset(
 OPTIONS = SolveOptions()
 
 
-def attempt(seed: int) -> _Attempt:
+def search(seed: int) -> GroupSearch:
     """A fingertip and a palm's direction, as a random posture has them."""
     rng = np.random.default_rng(seed)
     limits = RIG.coordinates
@@ -41,16 +41,16 @@ def attempt(seed: int) -> _Attempt:
         along(DIR, Bone("palm", S), Vec(u, v, w)),
     ]
     body = Body(RIG, evaluator, IDLE, {}, OPTIONS, asked)
-    return _Attempt(body, dict(enumerate(tasks(*asked))), IDLE, ARM, frozenset(), {})
+    return GroupSearch(body, dict(enumerate(tasks(*asked))), IDLE, ARM)
 
 
 def test_soft_descents_end_lower_after_fewer_evaluations() -> None:
     soft, hard, work = [], [], []
     for seed in range(20):
-        program = attempt(seed).program
+        program = search(seed).program
         start = IDLE[program.free]
         ends = []
-        for descend in (descended, pressed):
+        for descend in (soft_descent, stiff_descent):
             before = program.evaluations
             ends.append(program(descend(program, start, OPTIONS), np.empty(0)))
             work.append(program.evaluations - before)
@@ -62,15 +62,15 @@ def test_soft_descents_end_lower_after_fewer_evaluations() -> None:
     assert sum(work[0::2]) < 0.7 * sum(work[1::2])
 
 
-def test_going_on_takes_up_where_a_polish_ended() -> None:
+def test_kept_damping_goes_on_where_the_last_steps_ended() -> None:
     bold, anew = 0, 0
     for seed in range(10):
-        program = attempt(seed).program
-        x = descended(program, IDLE[program.free], OPTIONS)
+        program = search(seed).program
+        x = soft_descent(program, IDLE[program.free], OPTIONS)
         before = program.evaluations
-        on = program.polish(x, rounds=50, tolerance=1e-9, going_on=True)
+        on = program.gauss_newton(x, rounds=50, tolerance=1e-9, keep_damping=True)
         between = program.evaluations
-        again = program.polish(x, rounds=50, tolerance=1e-9)
+        again = program.gauss_newton(x, rounds=50, tolerance=1e-9)
         bold, anew = bold + between - before, anew + program.evaluations - between
         ends = [program(end, np.empty(0)) for end in (on, again)]
         assert ends[0] == pytest.approx(ends[1], rel=1e-6)
@@ -78,16 +78,16 @@ def test_going_on_takes_up_where_a_polish_ended() -> None:
 
 
 def test_weights_come_back_also_after_an_error() -> None:
-    program = attempt(1).program
+    program = search(1).program
     x, rows = IDLE[program.free], len(program.rows)
     before = program(x, np.empty(0))
     kept = program.ints.copy()
-    soft = weighing(
+    soft = scaled_weights(
         program,
         misses=0.5,
         overlap=0.0,
-        each=np.full(rows, 0.5),
-        ease=np.full(len(program.free), 0.25),
+        rows=np.full(rows, 0.5),
+        posture=np.full(len(program.free), 0.25),
     )
     lighter = []
 

@@ -12,8 +12,8 @@ from azee_solver.constraint import BoneAxis, Constraint, Morph
 from azee_solver.geometry import Bone, Dir, Side
 from azee_solver.handshape import fitted
 from azee_solver.penetration import Contact, mesh_penetration
-from azee_solver.report import SolveReport
 from azee_solver.solve import solve
+from azee_solver.solve_report import SolveReport
 
 DEEPEST_M = 3e-3
 FINGERS = ("index", "middle", "ring", "little")

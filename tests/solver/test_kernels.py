@@ -49,9 +49,10 @@ from azee_solver.geometry import (
     Vector,
 )
 from azee_solver.program import Cost, Program, Row
-from azee_solver.residuals import Tolerance, lower
+from azee_solver.residuals import lower
 from azee_solver.tape import Tape
 from azee_solver.task import Task
+from azee_solver.tolerance import Tolerance
 
 
 def slope(program: Program, x: NDArray[np.float64], v: int) -> float:

@@ -19,19 +19,19 @@ def test_nlopt_gives_the_same_bytes_through_c_and_through_python(
     case, program = everything(seed)
     x = case.q[program.free]
     assert nlopt_backend.c_interface() is not None
-    compiled = program.descend(x, max_evaluations=150, tolerance=1e-6)
+    compiled = program.lbfgs(x, max_evaluations=150, tolerance=1e-6)
     monkeypatch.setattr(nlopt_backend, "c_interface", lambda: None)
-    called = program.descend(x, max_evaluations=150, tolerance=1e-6)
+    called = program.lbfgs(x, max_evaluations=150, tolerance=1e-6)
     assert compiled.tobytes() == called.tobytes()
     assert program(compiled, np.empty(0)) < 0.5 * program(x, np.empty(0))
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_polishing_ends_where_nothing_pulls_but_into_a_limit(seed: int) -> None:
+def test_gauss_newton_ends_where_nothing_pulls_but_into_a_limit(seed: int) -> None:
     case, program = everything(seed)
-    start = program.descend(case.q[program.free], max_evaluations=100, tolerance=1e-2)
+    start = program.lbfgs(case.q[program.free], max_evaluations=100, tolerance=1e-2)
     before = program(start, np.empty(0))
-    x = program.polish(start, rounds=300, tolerance=1e-14)
+    x = program.gauss_newton(start, rounds=300, tolerance=1e-14)
     gradient = np.empty(len(x))
     assert program(x, gradient) <= before
     assert np.all(x >= program.lower)
@@ -42,11 +42,11 @@ def test_polishing_ends_where_nothing_pulls_but_into_a_limit(seed: int) -> None:
     assert np.abs(gradient[~at_limit]).max() < 1e-3 * np.abs(first).max()
 
 
-def test_polishing_a_single_coordinate_is_newton_s_method() -> None:
+def test_gauss_newton_on_a_single_coordinate_is_newton_s_method() -> None:
     """One parabola: a step or two reach its bottom to the last digits."""
     case = Case(3, [stick_body().coordinates.index["head.axial"]])
     program = case.program([], keep=2.0)
-    x = program.polish(np.array([0.4]), rounds=10, tolerance=0.0)
+    x = program.gauss_newton(np.array([0.4]), rounds=10, tolerance=0.0)
     assert x[0] == pytest.approx(case.rig.coordinates.idle[program.free[0]], abs=1e-9)
 
 
@@ -68,7 +68,7 @@ def test_kernels_write_nowhere_but_into_their_block(
     case, program = everything(5, free)
     x = case.q[program.free]
     program(x, np.empty(len(x)))
-    x = program.descend(x, max_evaluations=10, tolerance=1e-6)
-    program.polish(x, rounds=10, tolerance=0.0)
+    x = program.lbfgs(x, max_evaluations=10, tolerance=1e-6)
+    program.gauss_newton(x, rounds=10, tolerance=0.0)
     (block,) = blocks
     assert np.all(block[-64:] == untouched)

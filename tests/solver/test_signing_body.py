@@ -30,8 +30,8 @@ from azee_solver.geometry import (
     WorldPoint,
 )
 from azee_solver.penetration import mesh_penetration
-from azee_solver.report import SolveReport
 from azee_solver.solve import solve
+from azee_solver.solve_report import SolveReport
 
 MSSP = NamedPoint(SigningSpace.MSSP)
 DEEPEST_M = 3e-3
@@ -103,9 +103,9 @@ def test_the_published_thumb_misses_by_its_limits_and_nothing_else_does(signer: 
     idle = signer.coordinates.idle
     report = solve(signer, tree(thumb=True), dominant=Side.RIGHT, start=idle, reference=idle)
     assert len(report.problems) == 11
-    lost = missed(report)
-    assert [kind for kind, _, _ in lost] in ([], ["nrm of thumb_R_2"])
-    for _, residual, reason in lost:
+    unmet = missed(report)
+    assert [kind for kind, _, _ in unmet] in ([], ["nrm of thumb_R_2"])
+    for _, residual, reason in unmet:
         assert math.degrees(residual) < 20
         assert reason is not None
         assert reason.startswith("conflicts with")
@@ -118,7 +118,7 @@ def test_the_published_thumb_misses_by_its_limits_and_nothing_else_does(signer: 
         (Site("FH"), DEEPEST_M),
         (Site("CK", S), DEEPEST_M),
         (Site("NO"), 5e-3),  # the nose stands out of the face's capsules
-        (Site("CK", W), 8e-3),  # the upper arm is pressed against the chest
+        (Site("CK", W), 8e-3),  # the upper arm is stiff_descent against the chest
         (Site("SH", W), 8e-3),
     ],
     ids=lambda v: v.name if isinstance(v, Site) else "",
@@ -223,9 +223,9 @@ def test_a_place_inside_the_chest_is_not_entered(signer: Rig) -> None:
         along(NRM, Bone("back_2"), Vec(0.0, 0.0, 1.0)),
         along(NRM, Bone("palm", S), Opp(Vec(0.0, 0.0, 1.0))),
     )
-    lost = missed(report)
-    assert lost
-    assert any("the body is in the way" in str(reason) for _, _, reason in lost)
+    unmet = missed(report)
+    assert unmet
+    assert any("the body is in the way" in str(reason) for _, _, reason in unmet)
 
 
 def fingerprint(report: SolveReport) -> str:

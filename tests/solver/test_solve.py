@@ -49,8 +49,8 @@ from azee_solver.geometry import (
     WorldPoint,
 )
 from azee_solver.options import SolveOptions
-from azee_solver.report import SolveReport
 from azee_solver.solve import solve
+from azee_solver.solve_report import SolveReport
 
 RIG = stick_body()
 IDLE = RIG.coordinates.idle

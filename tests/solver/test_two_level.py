@@ -11,11 +11,12 @@ from stick_body import stick_body
 from tree_sign import DIR, NRM, UP, S, along, tasks, tree
 
 from azee_rig.rig import Rig
-from azee_solver import attempt, two_level
+from azee_solver import group_search, two_level
 from azee_solver.constraint import Constraint, Morph, Orient, Place, Relation
 from azee_solver.geometry import Bone, Dir, FreePoint, Side, Site, Vec
-from azee_solver.report import SolveReport
-from azee_solver.two_level import MAX_ITERATIONS, THRESHOLDS, solve_two_level
+from azee_solver.solve_report import SolveReport
+from azee_solver.tolerance import PAPER
+from azee_solver.two_level import MAX_ITERATIONS, solve_two_level
 
 TIP, NEAR = Site("I_TIP", S), FreePoint(-0.2, -0.2, 0.35)
 PALM = Bone("palm", S)
@@ -34,13 +35,13 @@ def iterations(report: SolveReport) -> list[int | None]:
 
 def offsets(report: SolveReport) -> list[float]:
     """In the paper's thresholds."""
-    return [c.residual / THRESHOLDS.of(c.task.constraint) for c in report.constraints]
+    return [c.residual / PAPER.of(c.task.constraint) for c in report.constraints]
 
 
 def test_the_constants_are_the_paper_s() -> None:
     assert MAX_ITERATIONS == 35
-    assert THRESHOLDS.length_m == 0.01
-    assert math.degrees(THRESHOLDS.angle_rad) == pytest.approx(5)
+    assert PAPER.length_m == 0.01
+    assert math.degrees(PAPER.angle_rad) == pytest.approx(5)
 
 
 def test_a_constraint_alone_takes_one_iteration() -> None:
@@ -54,7 +55,7 @@ def test_constraints_are_applied_one_by_one_the_place_first_until_all_are_met(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     applied: list[int] = []
-    original = attempt.solve_group
+    original = group_search.solve_group
 
     def noted(body: Any, asked: Any, *rest: Any, **options: Any) -> Any:
         applied.extend(asked)

@@ -16,7 +16,7 @@ from azee.motion.tasks.limbs import LINKS, TRUNK, Limbs
 from azee.motion.tasks.posture import PostureSolver, Search
 from azee.motion.tasks.timed_task import Bound
 from azee_solver.constraint import Constraint
-from azee_solver.report import SolveReport
+from azee_solver.solve_report import SolveReport
 from azee_solver.task import Task
 
 SETTLED = 0.9

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from azee.motion.tasks.limbs import TRUNK, Limbs
 from azee.motion.tasks.posture import KeyPosture, PostureSolver
 from azee.motion.tasks.timed_task import Bound
-from azee_solver.report import SolveReport
+from azee_solver.solve_report import SolveReport
 from azee_solver.task import Task
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from azee.motion.tasks.posture import PostureSolver, Search
 from azee_rig.rig import Rig
 from azee_solver.geometry import Side
-from azee_solver.report import SolveReport
+from azee_solver.solve_report import SolveReport
 from azee_solver.task import Task
 from azee_solver.two_level import solve_two_level
 

@@ -16,7 +16,7 @@ from azee.motion.tasks.timed_task import Bound, limbs_asked
 from azee_solver.task import Task
 
 if TYPE_CHECKING:
-    from azee_solver.report import SolveReport
+    from azee_solver.solve_report import SolveReport
 
 Array = NDArray[np.float64]
 

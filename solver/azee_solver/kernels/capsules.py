@@ -66,7 +66,7 @@ def _spread(balls, nodes, positions, rotations, centres):
 
 
 @njit(**INNER)
-def touch(ints, reals, positions, rotations):
+def find_contacts(ints, reals, positions, rotations):
     """Find the pairs of capsules that overlap; return how many, and the sum of overlap².
 
     Contacts are rows of: one capsule's node, the nearest point of its axis, the other's, the
@@ -137,7 +137,7 @@ def touch(ints, reals, positions, rotations):
 
 
 @njit(**INNER)
-def press(contacts, count, weight, forces, moments):
+def push_apart(contacts, count, weight, forces, moments):
     """Push nodes of capsules that overlap apart, with forces and moments."""
     for n in range(count):
         contact = contacts[n]

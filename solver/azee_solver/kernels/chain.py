@@ -66,7 +66,9 @@ def forward(q, ints, reals):
 
 
 @njit(**INNER)
-def gather(active, parents, start, scale, coordinate, positions, axes, forces, moments, pull_on_q):
+def joint_gradient(
+    active, parents, start, scale, coordinate, positions, axes, forces, moments, pull_on_q
+):
     """Add up forces and moments towards the root; what each coordinate feels of them."""
     for n in range(active.shape[0] - 1, -1, -1):
         node = active[n]

@@ -1,4 +1,4 @@
-"""The entry that NLopt calls: value and gradient, or a polish in place."""
+"""The entry that NLopt calls: value and gradient, or Gauss-Newton steps in place."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def evaluate(count, place, slope, block):
     The lowest point so far is kept in the block: a method that gives up loses it. Where f is
     undefined a huge value without slope makes a line search step back.
 
-    With rounds in the block x is first polished in place, never to a higher value, by damped
+    With rounds in the block x first goes, never to a higher value, by damped
     Gauss-Newton steps inside the bounds (Levenberg 1944, Marquardt 1963; damped as by Nielsen
     1999): every term of f is a square, so that its model needs first derivatives only. A relative
     gain below the block's tolerance ends it, or as many rounds. It is the same entry because

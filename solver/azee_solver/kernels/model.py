@@ -24,7 +24,7 @@ from azee_solver.block import (
     SLOPES,
     VALUES,
 )
-from azee_solver.kernels.objective import astray, discomfort
+from azee_solver.kernels.objective import beyond_comfort, reference_error
 from azee_solver.kernels.sections import along, matrix, part, stack
 from azee_solver.kernels.slopes import differentiate, lever
 
@@ -113,8 +113,8 @@ def gauss_newton(x, contacts, three, gradient, hessian, ints, reals):
     for k in range(n):
         reference, keep = posture[5 * k], posture[5 * k + 1]
         middle, half, comfort = posture[5 * k + 2], posture[5 * k + 3], posture[5 * k + 4]
-        beyond = discomfort((x[k] - middle) / half)
-        away, leader = astray(x, k, followed[k], reference), followed[k]
+        beyond = beyond_comfort((x[k] - middle) / half)
+        away, leader = reference_error(x, k, followed[k], reference), followed[k]
         gradient[k] += keep * away + comfort * beyond / half
         if leader >= 0:
             gradient[leader] -= FOLLOWING * keep * away

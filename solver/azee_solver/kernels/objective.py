@@ -1,4 +1,9 @@
-"""The value of a problem's objective, and its gradient."""
+"""The value of a problem's objective, and its gradient.
+
+    f(x) = σ Σ_k w_k e_k² + w_o Σ overlap² + Σ_v λ_v (q_v − ref_v)² + Σ_v κ_v beyond_v²
+
+in this order below; the package's docstring names the symbols.
+"""
 
 from __future__ import annotations
 
@@ -34,9 +39,9 @@ from azee_solver.block import (
     VALUES,
     Q,
 )
-from azee_solver.kernels.capsules import press, touch
-from azee_solver.kernels.chain import forward, gather
-from azee_solver.kernels.residuals import compare, play, rewind
+from azee_solver.kernels.capsules import find_contacts, push_apart
+from azee_solver.kernels.chain import forward, joint_gradient
+from azee_solver.kernels.residuals import forward_sweep, residual_cost, reverse_sweep
 from azee_solver.kernels.sections import matrix, part, stack
 
 
@@ -58,10 +63,10 @@ def objective(x, gradient, wanted, ints, reals):
     for k in range(free.shape[0]):
         q[free[k]] = x[k]
     forward(q, ints, reals)
-    play(codes, numbers, positions, rotations, values)
+    forward_sweep(codes, numbers, positions, rotations, values)
     pulls[:] = 0.0
     residuals = (ints[ROWS + 1] - ints[ROWS]) // 3
-    f = compare(
+    f = residual_cost(
         matrix(ints, ints, ROWS, residuals, 3),
         matrix(reals, ints, ROW_NUMBERS, residuals, 2),
         reals[ints[MISS_SHARE]],
@@ -69,7 +74,7 @@ def objective(x, gradient, wanted, ints, reals):
         pulls,
     )
     weight = reals[ints[OVERLAP_WEIGHT]]
-    contacts, overlaps = touch(ints, reals, positions, rotations)
+    contacts, overlaps = find_contacts(ints, reals, positions, rotations)
     f += weight * overlaps
 
     pull_on_q = part(reals, ints, PULL_ON_Q)
@@ -79,10 +84,10 @@ def objective(x, gradient, wanted, ints, reals):
         forces[:] = 0.0
         moments[:] = 0.0
         pull_on_q[:] = 0.0
-        rewind(codes, numbers, values, pulls, forces, moments)
+        reverse_sweep(codes, numbers, values, pulls, forces, moments)
         touching = matrix(reals, ints, CONTACTS, contacts, 12)
-        press(touching, contacts, weight, forces, moments)
-        gather(
+        push_apart(touching, contacts, weight, forces, moments)
+        joint_gradient(
             active,
             parents,
             part(ints, ints, DOF_START),
@@ -99,26 +104,26 @@ def objective(x, gradient, wanted, ints, reals):
     followed = part(ints, ints, FOLLOWED)
     for k in range(free.shape[0]):
         reference, keep, middle, half, comfort = posture[k]
-        away = astray(x, k, followed[k], reference)
-        beyond = discomfort((x[k] - middle) / half)
+        away = reference_error(x, k, followed[k], reference)
+        beyond = beyond_comfort((x[k] - middle) / half)
         f += keep * away * away + comfort * beyond * beyond
         if wanted:
             gradient[k] = pull_on_q[free[k]] + 2.0 * keep * away + 2.0 * comfort * beyond / half
     if wanted:
         for k in range(free.shape[0]):
             if followed[k] >= 0:
-                away = astray(x, k, followed[k], posture[k, 0])
+                away = reference_error(x, k, followed[k], posture[k, 0])
                 gradient[followed[k]] -= 2.0 * FOLLOWING * posture[k, 1] * away
     return f, contacts
 
 
 @njit(**INNER)
-def astray(x, k, leader, reference):
+def reference_error(x, k, leader, reference):
     """How far a coordinate is from its reference, or from what it follows."""
     return x[k] - (FOLLOWING * x[leader] if leader >= 0 else reference)
 
 
 @njit(**INNER)
-def discomfort(u):
+def beyond_comfort(u):
     """How far into the outer part of its range a coordinate is, with its sign."""
     return u - COMFORTABLE if u > COMFORTABLE else min(u + COMFORTABLE, 0.0)

@@ -22,7 +22,7 @@ from azee_solver.block import (
 
 
 @njit(**INNER)
-def play(codes, numbers, positions, rotations, values):
+def forward_sweep(codes, numbers, positions, rotations, values):
     """Values of the tape's entries; see the table in `tape`."""
     for t in range(codes.shape[0]):
         code, a, b, node = codes[t, 0], codes[t, 1], codes[t, 2], codes[t, 3]
@@ -65,7 +65,7 @@ def play(codes, numbers, positions, rotations, values):
 
 
 @njit(**INNER)
-def rewind(codes, numbers, values, pulls, forces, moments):
+def reverse_sweep(codes, numbers, values, pulls, forces, moments):
     """Carry ∂f / ∂entry back to the nodes, as forces and moments about the world's origin."""
     for t in range(codes.shape[0] - 1, -1, -1):
         code, a, b, node = codes[t, 0], codes[t, 1], codes[t, 2], codes[t, 3]
@@ -113,7 +113,7 @@ def rewind(codes, numbers, values, pulls, forces, moments):
 
 
 @njit(**INNER)
-def compare(rows, row_numbers, share, values, pulls):
+def residual_cost(rows, row_numbers, share, values, pulls):
     """Sum of σ w e² over the residuals, and its pulls on the entries they compare."""
     f = 0.0
     for k in range(rows.shape[0]):

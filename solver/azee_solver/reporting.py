@@ -12,41 +12,34 @@ from azee_solver import kinematics
 from azee_solver.anatomy import Part
 from azee_solver.body import Body
 from azee_solver.constraint import Morph, Transpath, Trill
-from azee_solver.footprint import Footprint
-from azee_solver.problems import Problem
+from azee_solver.moment import Moment
 from azee_solver.reasons import Diagnosis
-from azee_solver.report import ConstraintReport, ProblemReport, SolveReport
-from azee_solver.state import State
+from azee_solver.solution import Solution
+from azee_solver.solve_report import ConstraintReport, ProblemReport, SolveReport
 from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
 
-def verdict(
-    body: Body,
-    tasks: Sequence[Task],
-    problems: Sequence[Problem],
-    footprints: Mapping[int, Footprint],
-    state: State,
-    spent_s: Mapping[tuple[int, ...], float],
-    began: float,
+def report(
+    moment: Moment, solution: Solution, spent_s: Mapping[tuple[int, ...], float], began: float
 ) -> SolveReport:
     """Return the report of a solved moment.
 
     Args: spent_s: time that groups have taken, by their problems. began: when solving began, by
         `time.perf_counter`.
     """
-    limits = body.rig.coordinates
-    q = np.clip(state.q, limits.lower, limits.upper)
-    undefined = frozenset().union(*(r.undefined for r in state.results))
-    diagnosis = Diagnosis(body, tasks, footprints, q)
-    constraints = tuple(_constraints(body, tasks, q, diagnosis, undefined))
+    body, limits = moment.body, moment.body.rig.coordinates
+    q = np.clip(solution.q, limits.lower, limits.upper)
+    undefined = frozenset().union(*(r.undefined for r in solution.results))
+    diagnosis = Diagnosis(body, moment.tasks, moment.footprints, q)
+    constraints = tuple(_constraints(body, moment.tasks, q, diagnosis, undefined))
     q.setflags(write=False)
-    free = frozenset().union(*(group.free for group in state.groups))
+    free = frozenset().union(*(group.free for group in solution.groups))
     explain_s = diagnosis.spent_s
     return SolveReport(
         q,
-        _problems(body, tasks, problems, state, spent_s),
+        _problems(moment, solution, spent_s),
         constraints,
         body.obstacles.overlaps(q),
         body.evaluations,
@@ -84,22 +77,21 @@ def _constraints(
 
 
 def _problems(
-    body: Body,
-    tasks: Sequence[Task],
-    problems: Sequence[Problem],
-    state: State,
+    moment: Moment,
+    solution: Solution,
     spent_s: Mapping[tuple[int, ...], float],
 ) -> tuple[ProblemReport, ...]:
     """Return what became of each problem, in the order of their dependencies."""
     out: dict[int, ProblemReport] = {}
-    for group in state.groups:
+    body, problems = moment.body, moment.problems
+    for group in solution.groups:
         first = group.problems[0]
         parts = {body.anatomy.parts[v] for v in group.free}
         for p in group.problems:
             problem = problems[p]
             out[p] = ProblemReport(
                 problem.tasks,
-                tuple(tasks[i].constraint for i in problem.tasks),
+                tuple(moment.constraints[i] for i in problem.tasks),
                 body.evaluator.binding.dominant,
                 problem.chain,
                 out[first] if p != first else None,

@@ -1,0 +1,348 @@
+"""Solving one group of problems: descents from several starts until one meets everything.
+
+`solve_group` minimises, over the coordinates that the group may move and inside their limits,
+
+    f(q) = Σ w r² + w_o Σ overlap² + Σ k (q − q₀)² + Σ c beyond²
+
+(docs/solver.md names the terms). f has many local minima, so it is soft_descent from many starts:
+
+1. descend from each start in turn until one end meets everything or no more is gained (`search`);
+2. if only the body is in the way, descend around it and through it (`around_the_body`);
+3. go on to the very bottom (`finished`);
+4. if a place is far out of reach, try nearly straight arms as well (`nearest`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from itertools import chain
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver import block
+from azee_solver.anatomy import Part, part_of
+from azee_solver.binding import Binding
+from azee_solver.body import Body
+from azee_solver.broadphase import Collisions
+from azee_solver.collisions import MARGIN_M, depths
+from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
+from azee_solver.descent import refined, scaled_weights, soft_descent, stiff_descent
+from azee_solver.program import Program, Row
+from azee_solver.residuals import Residuals, lower
+from azee_solver.result import Result, excess, gains, is_repeat, merit
+from azee_solver.starts import starts, straight, typical
+from azee_solver.tape import Tape
+from azee_solver.task import Task
+
+Array = NDArray[np.float64]
+
+LEVEL_RAD = math.radians(2.0)
+"""How far a head that nothing turns may tilt with the trunk before it costs as much as a miss."""
+GAZING_LEVEL_RAD = math.radians(5.0)
+"""The same for its tilt while the eyes are led."""
+
+BLOCKED_WEIGHT = 2
+"""A descent that ends in the body counts so many times more against going on, where a wider
+problem can move the body out of the way."""
+REPEAT_WEIGHT = 4
+"""So many times counts a descent that ends where the best one did, unless that is a near miss: the
+more descents end there, the less likely is it that there is anything better."""
+MOST_REPEATS, MOST_MET_REPEATS = 9, 3
+"""So many descents around the body that come back to the same end are the last; so many where
+nothing is unmet and only overlap is left."""
+DEEP = 2.0
+"""Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
+STIFF_OVERLAP = 4.0
+"""Factor of the overlap's weight at the end, where steps are exact; a small one finds ways."""
+CLIPPED = 30.0
+"""Beyond so many tolerances a miss pulls no harder, once it is known that it must miss."""
+FAR_POSTURE = 0.3
+"""Factor of posture and joint-limit cost where a miss is too great to come from them."""
+NEAR_MISS, NEAR_MISS_POSTURE, NEAR_MISS_OVERLAP = 5.0, 0.01, 0.3
+"""Misses below so many tolerances are tried again with posture cost and overlap scaled down."""
+RETURNING_OVERLAP = 0.1
+"""Factor of the overlap's weight with which the body comes back after a descent through it."""
+PROBES = 3
+"""So many descents through the body, none of which meets all: then it is not in the way."""
+ROUGH = 1e-6
+"""Relative gain that ends descents whose ends are only compared."""
+NEARER = 0.1
+"""By so many tolerances another posture must be nearer to what is out of reach to be preferred."""
+
+
+def solve_group(
+    body: Body,
+    tasks: Mapping[int, Task],
+    q: Array,
+    free: frozenset[int],
+    *,
+    unsettled: frozenset[int] = frozenset(),
+    factors: Mapping[int, float] | None = None,
+    first: Sequence[Array] = (),
+    only_first: bool = False,
+    further: bool = True,
+    finish: bool = True,
+) -> Result:
+    """Return the best posture found for some tasks when some coordinates may move.
+
+    Args: tasks: by their index. q: (V,) the posture so far. free: coordinates that may move.
+        unsettled: coordinates that other problems will still move. factors: of the weights of
+        tasks that are given up. first: postures (V,) to start from before the others, or instead
+        of them. further: go on while the body is in the way; else leave that to a wider problem.
+        finish: get as near as can be to what is missed; else leave that to the next try.
+    """
+    search = GroupSearch(body, tasks, q, free, unsettled=unsettled, factors=factors)
+    if not search.residuals.rows:
+        return Result(q, {}, 0.0, 0.0, search.residuals.undefined)
+    coordinates, indices = body.rig.coordinates, search.program.free
+    known = starts(coordinates, indices, q, body.options.further_starts)
+    best = search.search(chain((p[indices] for p in first), () if only_first else known), further)
+    if further and not only_first and body.options.further_starts:
+        best = search.around_the_body(best, typical(coordinates, indices, unlike=True))
+    if finish or not best.unmet():
+        best = search.finished(best)
+    if finish and body.options.further_starts:
+        best = search.nearest(best, straight(coordinates, indices))
+    body.evaluations += search.program.evaluations
+    return best
+
+
+class GroupSearch:
+    """The objective of a group laid out for the kernels, and descents on it."""
+
+    def __init__(
+        self,
+        body: Body,
+        tasks: Mapping[int, Task],
+        q: Array,
+        free: frozenset[int],
+        *,
+        unsettled: frozenset[int] = frozenset(),
+        factors: Mapping[int, float] | None = None,
+    ) -> None:
+        """Lay the objective out; see `solve_group` for the arguments."""
+        self.body, self.tasks, self.q = body, tasks, q
+        self.given_up = frozenset(factors or {})
+        options = body.options
+        frames = body.frames(q)
+        tape = Tape(body.evaluator, frames, body.anatomy.moved_by(free))
+        self.residuals: Residuals = lower(tape, tasks, options.tolerance, factors or {})
+        rows = [*self.residuals.rows, *self._level_head(tape, free)]
+        self.collisions = (
+            body.obstacles.for_problem(free, unsettled - free)
+            if options.overlap
+            else Collisions.none()
+        )
+        gazes = any(isinstance(task.constraint, Look | LookAt) for task in tasks.values())
+        cost = body.cost(gazes=gazes)
+        self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, cost)
+
+    def search(self, candidates: Iterable[Array], further: bool) -> Result:
+        """Return the best end of descents: the first that meets all, or when no more is gained.
+
+        After a descent that ended where the best one did the next one is stiff: another way down
+        finds other ends.
+
+        Args: candidates: starts (n,). further: see `solve_group`.
+        """
+        options = self.body.options
+        patience = options.patience * (2 if further else 1)
+        best: Result | None = None
+        stalled, repeats, repeated = 0, 0, False
+        tried: set[bytes] = set()
+        for start in candidates:
+            if start.tobytes() in tried:
+                continue
+            tried.add(start.tobytes())
+            descend = self.stiff if repeated else self.soft
+            result = self._near_miss_refined(descend(start))
+            found = merit(result, options)
+            if not found[0] and not excess(result, options):
+                best = result
+                break
+            repeated = best is not None and is_repeat(found, merit(best, options))
+            repeats += repeated
+            if best is None or gains(found, merit(best, options)):
+                stalled, repeats = 0, 0
+            else:
+                near = 1.0 < result.worst() < NEAR_MISS and (further or self.given_up)
+                stalled += REPEAT_WEIGHT if repeated and not near else 1
+                stalled += BLOCKED_WEIGHT if excess(result, options) and not further else 0
+            if best is None or found < merit(best, options):
+                best = result
+            if stalled >= patience or ((repeated or further) and self.suffices(best)):
+                break
+        assert best is not None
+        return replace(best, repeats=repeats)
+
+    def around_the_body(self, best: Result, candidates: Iterable[Array]) -> Result:
+        """Return what descents around and through the body find, where it is in the way.
+
+        From every start (n,) twice: with the body, and without it, after which it comes back
+        little by little and pushes the posture out of itself (ADR 25).
+        """
+        options = self.body.options
+        if not options.overlap or self.suffices(best):
+            return best
+        starts = list(candidates)
+        probes = [best.q[self.program.free], *starts[: PROBES - 1]]
+        if not starts or all(self._through_the_body(x).unmet() for x in probes):
+            return best
+        repeats = 0
+        for start in starts:
+            through = self._through_the_body(start).q[self.program.free]
+            with scaled_weights(self.program, overlap=RETURNING_OVERLAP):
+                out = self.stiff(through).q[self.program.free]
+            for x in (start, out):
+                result = self._near_miss_refined(self.stiff(x))
+                repeats += is_repeat(merit(result, options), merit(best, options))
+                best = min(best, result, key=lambda r: merit(r, options))
+                most = MOST_REPEATS if best.unmet() else MOST_MET_REPEATS
+                if repeats >= most or self.suffices(best):
+                    return best
+        return best
+
+    def suffices(self, result: Result) -> bool:
+        """Whether nothing is unmet and nothing overlaps but the margin around the body.
+
+        The margin is a wish: reports leave it out (ADR 27).
+        """
+        tolerated_m = self.body.options.overlap_m
+        if result.unmet() or result.overlap_m > tolerated_m + MARGIN_M:
+            return False
+        return result.overlap_m <= tolerated_m or bool(
+            depths(self.body.rig, self.collisions, result.q).max() <= tolerated_m
+        )
+
+    def finished(self, result: Result, tolerance: float | None = None) -> Result:
+        """Go on to the very bottom, so that near targets end in near postures.
+
+        Far from what they want, Gauss-Newton steps are short: there NLopt goes on first. What is
+        far away pulls less then, so that it does not press the body into itself.
+        """
+        options, program = self.body.options, self.program
+        tolerance = tolerance or options.finish_tolerance
+        unmet = result.unmet()
+        rows = np.ones(len(program.rows))
+        for i in unmet:
+            rows[slice(*self.residuals.runs[i])] = min(1.0, CLIPPED / result.ratios[i])
+        far = any(result.ratios[i] > NEAR_MISS for i in unmet)
+        x = result.q[program.free]
+        with scaled_weights(
+            program, rows=rows, posture=self._posture_factors(FAR_POSTURE) if far else None
+        ):
+            if unmet:
+                x = program.lbfgs(x, max_evaluations=options.max_evaluations, tolerance=tolerance)
+            with scaled_weights(program, overlap=STIFF_OVERLAP):
+                rounds = options.finish_work // max(len(x), 1)
+                x = program.gauss_newton(
+                    x, rounds=rounds, tolerance=tolerance, keep_damping=not unmet
+                )
+        finished = self.measured(x)
+        if not finished.unmet() and excess(finished, options) <= excess(result, options):
+            return finished
+        return min(finished, result, key=lambda r: merit(r, options))
+
+    def nearest(self, best: Result, candidates: Iterable[Array]) -> Result:
+        """Look for another posture that comes nearer to a place that is far out of reach.
+
+        What is best early in a descent is not what is best at its end, so each goes on to there
+        (ADR 25: worst distance behind the best of any method 9.7 → 0.3 mm).
+
+        Args: candidates: starts (n,).
+        """
+        places = [i for i in best.unmet() if isinstance(self.tasks[i].constraint, Place)]
+        if not any(best.ratios[i] > NEAR_MISS for i in places):
+            return best
+        for start in candidates:
+            other = self.finished(self.soft(start), ROUGH)
+            (misses, cost), (fewest, least) = (
+                merit(result, self.body.options) for result in (other, best)
+            )
+            if misses <= fewest and math.sqrt(cost) < math.sqrt(least) - NEARER:
+                best = other
+        return self.finished(best)
+
+    # Single descents --------------------------------------------------------------------------
+
+    def soft(self, start: Array) -> Result:
+        """Return where a soft descent from a start (n,) ends."""
+        return self.measured(soft_descent(self.program, start, self.body.options))
+
+    def stiff(self, start: Array) -> Result:
+        """Return where a stiff descent from a start (n,) ends, on its side of the body."""
+        return self.measured(stiff_descent(self.program, start, self.body.options))
+
+    def _through_the_body(self, start: Array) -> Result:
+        """Return where a descent without collision ends."""
+        with scaled_weights(self.program, overlap=0.0):
+            return self.stiff(start)
+
+    def _near_miss_refined(self, result: Result) -> Result:
+        """Descend once more with little posture cost, if a small miss may come from that."""
+        if not 1.0 < result.worst() < NEAR_MISS:
+            return result
+        x, options = result.q[self.program.free], self.body.options
+        posture = self._posture_factors(NEAR_MISS_POSTURE)
+        with scaled_weights(self.program, posture=posture, overlap=NEAR_MISS_OVERLAP):
+            closer = self.measured(refined(self.program, x, options))
+        if closer.overlap_m > max(result.overlap_m, DEEP * options.overlap_m):
+            return result
+        return min(result, closer, key=lambda r: merit(r, options))
+
+    def _posture_factors(self, factor: float) -> Array:
+        """Factors of posture and joint-limit cost per free coordinate; handshapes keep theirs."""
+        return np.array([1.0 if v in self.body.presets else factor for v in self.program.free])
+
+    def measured(self, x: Array) -> Result:
+        """Return what the free coordinates x (n,) are worth."""
+        self.program(x, np.empty(0))
+        ratios = self.residuals.ratios(
+            self.program.lengths(), self.tasks, self.body.options.tolerance
+        )
+        q = self.q.copy()
+        q[self.program.free] = x
+        return Result(
+            q,
+            ratios,
+            sum(r * r for i, r in ratios.items() if i not in self.given_up),
+            float(self.program.section(block.DEEPEST)[0]),
+            self.residuals.undefined,
+            self.given_up,
+        )
+
+    def _level_head(self, tape: Tape, free: frozenset[int]) -> list[Row]:
+        """Rows that keep the head as it was while the trunk moves under it."""
+        anatomy_, rig = self.body.anatomy, self.body.rig
+        if not free & anatomy_.of(Part.TRUNK) or not free & anatomy_.of(Part.HEAD):
+            return []
+        binding = self.body.evaluator.binding
+        if any(_turns_head(task.constraint, binding) for task in self.tasks.values()):
+            return []
+        node = rig.bones["head"].node
+        level = self.body.frames(self.body.reference).rotations[node]
+        gaze = any(isinstance(task.constraint, Look | LookAt) for task in self.tasks.values())
+        columns = (1,) if gaze else (0, 1, 2)
+        weight = GAZING_LEVEL_RAD**-2 if gaze else 0.5 * LEVEL_RAD**-2
+        return [
+            Row(
+                block.MEET,
+                tape.node_vector(node, np.eye(3)[k]),
+                tape.constant(level[:, k]),
+                weight,
+            )
+            for k in columns
+        ]
+
+
+def _turns_head(constraint: Constraint, binding: Binding) -> bool:
+    match constraint:
+        case Place(site):
+            return part_of(binding.site(site).bone) is Part.HEAD
+        case Orient(_, bone) | Rotate(bone):
+            return part_of(bone.name) is Part.HEAD
+        case _:
+            return False

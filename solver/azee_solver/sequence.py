@@ -14,7 +14,7 @@ from azee_solver.moment import Moment
 from azee_solver.priorities import give_up_later_tasks
 from azee_solver.problems import Reach
 from azee_solver.relaxed import RelaxedProblem
-from azee_solver.result import Result, excess
+from azee_solver.result import Result
 from azee_solver.solution import Solution
 
 Array = NDArray[np.float64]
@@ -31,19 +31,13 @@ class GroupSequence:
         self.spent_s: dict[tuple[int, ...], float] = {}
 
     def solve(
-        self,
-        reach: Sequence[Reach],
-        before: Solution | None = None,
-        *,
-        further: bool = False,
-        give_up: bool = False,
+        self, reach: Sequence[Reach], before: Solution | None = None, *, give_up: bool = False
     ) -> Solution:
         """Return the posture in which all groups end.
 
         Args: reach: how much of the body each problem may move. before: a solution whose results
-            stand where nothing they depend on has changed. further: no wider problem will take
-            over: search further in groups that miss. give_up: where constraints exclude each
-            other, the later ones are given up.
+            stand where nothing they depend on has changed. give_up: where constraints exclude each
+            other, give up the later ones.
         """
         moment = self.moment
         groups = grouped(moment.problems, reach, moment.body.anatomy, moment.options.fixed)
@@ -53,12 +47,8 @@ class GroupSequence:
             began = time.perf_counter()
             unsettled = frozenset().union(*(g.free for g in groups[n + 1 :]))
             result = self._found_before(group, q, before)
-            widest = moment.is_widest(group)
-            if result is None or (further and not widest and not self.is_well(result)):
-                feasible = not self._is_infeasible(group, before)
-                result = self._searched(
-                    group, q, unsettled, before, further=(further or widest) and feasible
-                )
+            if result is None:
+                result = self._searched(group, q, unsettled, before)
             if give_up:
                 result = self._without_later_tasks(group, q, unsettled, result)
             q = q.copy()
@@ -67,10 +57,6 @@ class GroupSequence:
             spent_s = self.spent_s.get(group.problems, 0.0) + time.perf_counter() - began
             self.spent_s[group.problems] = spent_s
         return Solution(q, tuple(reach), tuple(groups), tuple(results))
-
-    def is_well(self, result: Result) -> bool:
-        """Whether nothing is unmet and nothing overlaps."""
-        return not result.unmet() and not excess(result, self.moment.options)
 
     def _found_before(self, group: Group, q: Array, before: Solution | None) -> Result | None:
         """Return an earlier result for the same group with the same surroundings."""
@@ -84,17 +70,10 @@ class GroupSequence:
         return None
 
     def _searched(
-        self,
-        group: Group,
-        q: Array,
-        unsettled: frozenset[int],
-        before: Solution | None,
-        *,
-        further: bool,
+        self, group: Group, q: Array, unsettled: frozenset[int], before: Solution | None
     ) -> Result:
         """Solve one group; all its tasks have equal rights but those that are given up."""
-        start = self.moment.start
-        first = [start] if before is None else [before.q, start]
+        first = self.moment.start if before is None else before.q
         return solve_group(
             self.moment.body,
             self.moment.tasks_of(group),
@@ -102,8 +81,8 @@ class GroupSequence:
             group.free,
             unsettled=unsettled,
             factors=self._given_up(group),
-            first=[*first, *self.relaxed.postures],
-            further=further,
+            first=[first, *self.relaxed.postures],
+            further=self.moment.is_widest(group),
             finish=False,
         )
 
@@ -111,7 +90,7 @@ class GroupSequence:
         self, group: Group, q: Array, unsettled: frozenset[int], result: Result
     ) -> Result:
         """Give up later tasks of a group until the earlier ones are met, and finish."""
-        tasks, start = self.moment.tasks_of(group), self.moment.start
+        tasks = self.moment.tasks_of(group)
 
         def again(factors: Mapping[int, float], begin: Array, *, finish: bool = False) -> Result:
             return solve_group(
@@ -121,7 +100,7 @@ class GroupSequence:
                 group.free,
                 unsettled=unsettled,
                 factors=factors,
-                first=[begin] if finish else [begin, start],
+                first=[begin],
                 only_first=finish,
                 further=False,
                 finish=finish,
@@ -139,10 +118,3 @@ class GroupSequence:
         """Factors of the weights of a group's tasks that the relaxed problem gave up."""
         tasks = self.moment.tasks_of(group)
         return {i: factor for i, factor in self.relaxed.given_up.items() if i in tasks}
-
-    def _is_infeasible(self, group: Group, before: Solution | None) -> bool:
-        """Whether all that a group has missed so far is infeasible in the relaxed problem too."""
-        if before is None:
-            return False
-        unmet = before.unmet() & self.moment.tasks_of(group).keys()
-        return bool(unmet) and unmet <= self.relaxed.infeasible

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from azee_solver.anatomy import Part
-from azee_solver.groups import Group
 from azee_solver.moment import Moment
 from azee_solver.problems import Problem, Reach
+from azee_solver.relaxed import DEEP_M
 from azee_solver.solution import Solution
-
-FINGER_M = 0.02
-"""Deeper overlaps than a finger is thick are none that fingers get out of."""
-JUMP_RAD = math.radians(1.5)
-"""Along a movement, where a coordinate changes by more than this, more of the body may share it."""
-IN_USE_RAD = math.radians(1.0)
-"""A coordinate farther than this from the reference has been taken into use by an earlier step."""
 
 
 def least_reach(moment: Moment) -> tuple[Reach, ...]:
-    """Return what each problem may move first: along a movement, what the last step has moved."""
+    """Return what each problem may move first.
+
+    That is what its constraints speak of. Along a movement it is also what an earlier step has
+    moved away from the reference, or the body would jump back (15 jumps of up to 5.9° in
+    `benchmarks.continuity`; ADR 29).
+    """
     return tuple(_least(moment, problem) for problem in moment.problems)
 
 
@@ -29,43 +24,30 @@ def _least(moment: Moment, problem: Problem) -> Reach:
     options, body = moment.options, moment.body
     if not options.inertia:
         return Reach.OWN
-    trunk, head = body.anatomy.of(Part.TRUNK), body.anatomy.of(Part.HEAD)
-    # Where the trunk may move the head moves too, to stay level.
-    steps = [step | (head if step & trunk else frozenset()) for step in problem.steps]
-    away = np.abs(moment.start - body.reference) > IN_USE_RAD / (1.0 + options.inertia)
-    moved = frozenset(np.flatnonzero(away).tolist()) & steps[Reach.ALL]
-    moved -= options.fixed | frozenset(body.presets)
-    return next(r for r in Reach if moved <= steps[r] or r is Reach.ALL)
+    moved = frozenset(np.flatnonzero(moment.start != body.reference).tolist())
+    moved &= problem.steps[Reach.ALL] - options.fixed - frozenset(body.presets)
+    return next(r for r in Reach if moved <= problem.steps[r] or r is Reach.ALL)
 
 
 def widened(moment: Moment, solution: Solution) -> tuple[Reach, ...] | None:
-    """Let problems of groups that miss move more, where that can help; none if nothing can."""
+    """Let problems of groups that miss move more, where that can help; none if nothing can.
+
+    More helps a missed constraint if it changes its residual. It helps against an overlap too, but
+    fingers do not get out of one that is deeper than they are thick.
+    """
     options, anatomy = moment.options, moment.body.anatomy
     wider = list(solution.reach)
     for group, result in zip(solution.groups, solution.results, strict=True):
-        unmet = result.unmet()
-        in_the_way = result.overlap_m > options.overlap_m
-        jumps = options.inertia > 0.0 and moment.jump(result.q) > JUMP_RAD
-        if not unmet and not in_the_way and not jumps:
-            continue
-        affects = frozenset().union(*(moment.footprints[i].affected(anatomy) for i in unmet))
+        overlaps = result.overlap_m > options.overlap_m
+        affects = frozenset().union(
+            *(moment.footprints[i].affected(anatomy) for i in result.unmet())
+        )
         for p in group.problems:
             steps = moment.problems[p].steps
             for r in Reach:
                 gained = steps[r] - group.free - options.fixed
-                linked = r is Reach.TRUNK > solution.reach[p] and _is_linked(moment, p, group)
-                avoids = in_the_way and (r > Reach.FINGERS or result.overlap_m < FINGER_M)
-                helps = gained & affects or (gained and (avoids or jumps))
-                if r > solution.reach[p] and (helps or linked):
+                avoids = overlaps and (r > Reach.FINGERS or result.overlap_m < DEEP_M)
+                if r > solution.reach[p] and gained and (avoids or gained & affects):
                     wider[p] = r
                     break
     return None if tuple(wider) == solution.reach else tuple(wider)
-
-
-def _is_linked(moment: Moment, p: int, group: Group) -> bool:
-    """Whether a problem depends on one that is not in its group."""
-    return any(
-        moment.problems[p].needs(other)
-        for j, other in enumerate(moment.problems)
-        if j not in group.problems
-    )

@@ -146,7 +146,7 @@ def _solver(rig: Rig, dominant: Side) -> PostureSolver:
     ) -> SolveReport:
         options = SolveOptions(fixed=fixed)
         if search is Search.NEAR:
-            options = replace(options, further_starts=0, patience=0)
+            options = replace(options, far=False, patience=0)
         return solve(
             rig, tasks, dominant=dominant, start=start, reference=reference, options=options
         )

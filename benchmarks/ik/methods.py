@@ -100,7 +100,7 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
     )
     free = sorted(problem.free)
     program = Program(rig, idle, free, tape, residuals.rows, Collisions.none(), cost)
-    known = list(starts(rig.coordinates, program.free, idle, 6))
+    known = list(starts(rig.coordinates, program.free, idle))
     best, worst = idle[free], math.inf
     clock = Clock()
     for start in known:

@@ -65,7 +65,6 @@ class Body:
             comfort=0.0,
             overlap=0.0,
             overlap_m=math.inf,
-            further_starts=2,
         )
         return replace(self, reference=reference, presets={}, options=options, evaluations=0)
 

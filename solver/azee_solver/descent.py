@@ -55,8 +55,8 @@ def refined(program: Program, x: Array, options: SolveOptions) -> Array:
 class scaled_weights:  # noqa: N801 - used as a statement
     """Scale weights of the objective for as long as a `with` lasts.
 
-    Args: misses, overlap: factors of all residuals and of overlap. rows: factors of single rows,
-        (R,). posture: factors of posture and joint-limit cost per free coordinate, (n,).
+    Args: misses, overlap: factors of all residuals and of overlap. posture: factors of posture and
+        joint-limit cost per free coordinate, (n,).
     """
 
     def __init__(
@@ -65,11 +65,10 @@ class scaled_weights:  # noqa: N801 - used as a statement
         *,
         misses: float = 1.0,
         overlap: float = 1.0,
-        rows: Array | None = None,
         posture: Array | None = None,
     ) -> None:
         self._program, self._factors = program, (misses, overlap)
-        self._rows, self._posture = rows, posture
+        self._posture = posture
         self._kept: list[tuple[Array, Array | float]] = []
 
     def __enter__(self) -> None:
@@ -77,8 +76,6 @@ class scaled_weights:  # noqa: N801 - used as a statement
         for weight, factor in zip(program.weights, self._factors, strict=True):
             self._kept.append((weight, float(weight[0])))
             weight[0] *= factor
-        if self._rows is not None:
-            self._keep(program.section(block.ROW_NUMBERS))[::2] *= self._rows
         if self._posture is not None:
             posture = self._keep(program.section(block.POSTURE))
             posture[1::5] *= self._posture

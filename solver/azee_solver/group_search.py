@@ -32,7 +32,7 @@ from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rota
 from azee_solver.descent import refined, scaled_weights, soft_descent, stiff_descent
 from azee_solver.program import Program, Row
 from azee_solver.residuals import Residuals, lower
-from azee_solver.result import Result, excess, gains, is_repeat, merit
+from azee_solver.result import Result, excess, is_repeat, merit
 from azee_solver.starts import starts, straight, typical
 from azee_solver.tape import Tape
 from azee_solver.task import Task
@@ -54,16 +54,12 @@ DEEP = 2.0
 """Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
 STIFF_OVERLAP = 4.0
 """Factor of the overlap's weight at the end, where steps are exact; a small one finds ways."""
-CLIPPED = 30.0
-"""Beyond so many tolerances a miss pulls no harder, once it is known that it must miss."""
-FAR_POSTURE = 0.3
-"""Factor of posture and joint-limit cost where a miss is too great to come from them."""
 NEAR_MISS, NEAR_MISS_POSTURE, NEAR_MISS_OVERLAP = 5.0, 0.01, 0.3
 """Misses below so many tolerances are tried again with posture cost and overlap scaled down."""
-ROUGH = 1e-6
-"""Relative gain that ends descents whose ends are only compared."""
-NEARER = 0.1
-"""By so many tolerances another posture must be nearer to what is out of reach to be preferred."""
+PROBES = 3
+"""So many descents through the body, none of which meets all: then it is not in the way."""
+RETURNING_OVERLAP = 0.1
+"""Factor of the overlap's weight with which the body comes back after a descent through it."""
 
 
 def solve_group(
@@ -91,13 +87,13 @@ def solve_group(
     if not search.residuals.rows:
         return Result(q, {}, 0.0, 0.0, search.residuals.undefined)
     coordinates, indices = body.rig.coordinates, search.program.free
-    known = starts(coordinates, indices, q, body.options.further_starts)
+    known = starts(coordinates, indices, q)
     best = search.search(chain((p[indices] for p in first), () if only_first else known), further)
-    if further and not only_first and body.options.further_starts:
+    if further and not only_first and body.options.far:
         best = search.around_the_body(best, typical(coordinates, indices, unlike=True))
     if finish or not best.unmet():
         best = search.finished(best)
-    if finish and body.options.further_starts:
+    if finish and body.options.far:
         best = search.nearest(best, straight(coordinates, indices))
     body.evaluations += search.program.evaluations
     return best
@@ -153,7 +149,7 @@ class GroupSearch:
                 break
             repeated = best is not None and is_repeat(found, merit(best, options))
             repeats += repeated
-            if best is None or gains(found, merit(best, options)):
+            if best is None or found[0] < merit(best, options)[0]:
                 stalled, repeats = 0, 0
             else:
                 stalled += REPEAT_WEIGHT if repeated else 1
@@ -168,16 +164,20 @@ class GroupSearch:
     def around_the_body(self, best: Result, candidates: Iterable[Array]) -> Result:
         """Return what descents around and through the body find, where it is in the way.
 
-        From every start (n,) twice: with the body, and after a descent without it, from where it
-        pushes the posture out of itself (ADR 25). Of 1,799 drawn problems this meets four more.
+        From every start (n,) twice: with the body, and after a descent without it, after which it
+        comes back in two steps and pushes the posture out of itself (ADR 25). Of 1,747 drawn
+        problems this meets four more.
         """
         options = self.body.options
-        if not options.overlap or self.suffices(best) or not self._body_is_in_the_way(best):
+        if not options.overlap or self.suffices(best):
             return best
-        for start in candidates:
+        starts = list(candidates)
+        if not self._body_is_in_the_way([best.q[self.program.free], *starts[: PROBES - 1]]):
+            return best
+        for start in starts:
             if self.suffices(best):
                 break
-            for x in (start, self._through_the_body(start)):
+            for x in (start, self._out_of_the_body(start)):
                 result = self._near_miss_refined(self.stiff(x))
                 best = min(best, result, key=lambda r: merit(r, options))
         return best
@@ -194,30 +194,19 @@ class GroupSearch:
             depths(self.body.rig, self.collisions, result.q).max() <= tolerated_m
         )
 
-    def finished(self, result: Result, tolerance: float | None = None) -> Result:
+    def finished(self, result: Result) -> Result:
         """Go on to the very bottom, so that near targets end in near postures.
 
-        Far from what they want, Gauss-Newton steps are short: there NLopt goes on first. What is
-        far away pulls less then, so that it does not press the body into itself.
+        Far from what they want, Gauss-Newton steps are short: there NLopt goes on first.
         """
         options, program = self.body.options, self.program
-        tolerance = tolerance or options.finish_tolerance
-        unmet = result.unmet()
-        rows = np.ones(len(program.rows))
-        for i in unmet:
-            rows[slice(*self.residuals.runs[i])] = min(1.0, CLIPPED / result.ratios[i])
-        far = any(result.ratios[i] > NEAR_MISS for i in unmet)
+        tolerance, unmet = options.finish_tolerance, result.unmet()
         x = result.q[program.free]
-        with scaled_weights(
-            program, rows=rows, posture=self._posture_factors(FAR_POSTURE) if far else None
-        ):
-            if unmet:
-                x = program.lbfgs(x, max_evaluations=options.max_evaluations, tolerance=tolerance)
-            with scaled_weights(program, overlap=STIFF_OVERLAP):
-                rounds = options.finish_work // max(len(x), 1)
-                x = program.gauss_newton(
-                    x, rounds=rounds, tolerance=tolerance, keep_damping=not unmet
-                )
+        if unmet:
+            x = program.lbfgs(x, max_evaluations=options.max_evaluations, tolerance=tolerance)
+        with scaled_weights(program, overlap=STIFF_OVERLAP):
+            rounds = options.finish_work // max(len(x), 1)
+            x = program.gauss_newton(x, rounds=rounds, tolerance=tolerance, keep_damping=not unmet)
         finished = self.measured(x)
         if not finished.unmet() and excess(finished, options) <= excess(result, options):
             return finished
@@ -234,14 +223,8 @@ class GroupSearch:
         places = [i for i in best.unmet() if isinstance(self.tasks[i].constraint, Place)]
         if not any(best.ratios[i] > NEAR_MISS for i in places):
             return best
-        for start in candidates:
-            other = self.finished(self.soft(start), ROUGH)
-            (misses, cost), (fewest, least) = (
-                merit(result, self.body.options) for result in (other, best)
-            )
-            if misses <= fewest and math.sqrt(cost) < math.sqrt(least) - NEARER:
-                best = other
-        return self.finished(best)
+        others = [self.finished(self.soft(start)) for start in candidates]
+        return min([best, *others], key=lambda r: merit(r, self.body.options))
 
     # Single descents --------------------------------------------------------------------------
 
@@ -253,17 +236,23 @@ class GroupSearch:
         """Return where a stiff descent from a start (n,) ends, on its side of the body."""
         return self.measured(stiff_descent(self.program, start, self.body.options))
 
-    def _body_is_in_the_way(self, best: Result) -> bool:
-        """Whether everything would be met without the body, from where a search has ended.
+    def _body_is_in_the_way(self, starts: Iterable[Array]) -> bool:
+        """Whether a descent without the body from one of some starts (n,) meets everything.
 
-        If not, the body is not to blame: targets out of reach need not be searched for around it.
+        If not, the body is not to blame: targets out of reach are not searched for around it.
         """
-        return not self.measured(self._through_the_body(best.q[self.program.free])).unmet()
+        return any(not self.measured(self._through_the_body(x)).unmet() for x in starts)
 
     def _through_the_body(self, start: Array) -> Array:
         """Return where a descent without collision ends, (n,)."""
         with scaled_weights(self.program, overlap=0.0):
             return stiff_descent(self.program, start, self.body.options)
+
+    def _out_of_the_body(self, start: Array) -> Array:
+        """Return where the body, at part of its weight, pushes a descent through it, (n,)."""
+        through = self._through_the_body(start)
+        with scaled_weights(self.program, overlap=RETURNING_OVERLAP):
+            return stiff_descent(self.program, through, self.body.options)
 
     def _near_miss_refined(self, result: Result) -> Result:
         """Descend once more with little posture cost, if a small miss may come from that."""

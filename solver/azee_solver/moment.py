@@ -79,3 +79,7 @@ class Moment:
             self.problems[p].steps[Reach.ALL] <= group.free | self.options.fixed
             for p in group.problems
         )
+
+    def jump(self, q: Array) -> float:
+        """How far a posture is from the start, in the coordinate that is farthest, radians."""
+        return float(np.abs(q - self.start).max())

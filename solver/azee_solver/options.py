@@ -35,10 +35,10 @@ class SolveOptions:
     """Most Gauss-Newton steps times coordinates that the best of all descents ends with."""
     finish_tolerance: float = 1e-6
     """Relative gain below which these end."""
-    further_starts: int = 6
-    """Starts from the Halton sequence after all others."""
+    far: bool = True
+    """Whether a search that fails goes on around the body and with straight arms."""
     patience: int = 6
-    """Descents in a row that gain nothing and end a search; twice as many in the last search."""
+    """Descents in a row that gain nothing and end a search."""
     explain: bool = True
     """Whether to find out why a constraint is missed, by solving smaller problems."""
     fixed: frozenset[int] = frozenset()

@@ -12,8 +12,6 @@ from azee_solver.options import SolveOptions
 
 Array = NDArray[np.float64]
 
-GAIN = 0.8
-"""A descent has gained something if it brings the cost below this part of the best."""
 SAME = 0.01
 """Costs that differ by no more than this part are those of one and the same end."""
 
@@ -57,11 +55,6 @@ def excess(result: Result, options: SolveOptions) -> float:
 def merit(result: Result, options: SolveOptions) -> tuple[int, float]:
     """Return the number of unmet tasks, then the cost with overlap: the less the better."""
     return len(result.unmet()), result.cost + excess(result, options) ** 2
-
-
-def gains(one: tuple[int, float], best: tuple[int, float]) -> bool:
-    """Whether a merit is so much better than the best that more descents may be worth it."""
-    return one[0] < best[0] or (one[0] == best[0] and one[1] < GAIN * best[1])
 
 
 def is_repeat(one: tuple[int, float], best: tuple[int, float]) -> bool:

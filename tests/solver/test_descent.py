@@ -79,14 +79,13 @@ def test_kept_damping_goes_on_where_the_last_steps_ended() -> None:
 
 def test_weights_come_back_also_after_an_error() -> None:
     program = search(1).program
-    x, rows = IDLE[program.free], len(program.rows)
+    x = IDLE[program.free]
     before = program(x, np.empty(0))
     kept = program.ints.copy()
     soft = scaled_weights(
         program,
         misses=0.5,
         overlap=0.0,
-        rows=np.full(rows, 0.5),
         posture=np.full(len(program.free), 0.25),
     )
     lighter = []

@@ -191,7 +191,7 @@ class GroupSearch:
         if result.unmet() or result.overlap_m > tolerated_m + MARGIN_M:
             return False
         return result.overlap_m <= tolerated_m or bool(
-            depths(self.body.rig, self.collisions, result.q).max() <= tolerated_m
+            depths(self.body.rig, self.collisions, result.q).max(initial=0.0) <= tolerated_m
         )
 
     def finished(self, result: Result) -> Result:

@@ -1,4 +1,7 @@
-"""From a score to a clip: the whole of motion, step by step."""
+"""From a score to a clip with its report, a step a line.
+
+The numbers are those of the steps in docs/motion.md.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +19,13 @@ from azee.motion.keys.plan import plan
 from azee.motion.overlay.face import RAMP_S, face_weights
 from azee.motion.overlay.idle import AFTER_S, BEFORE_S, BLINK, blinks, breathing, swaying
 from azee.motion.overlay.labels import labels
-from azee.motion.overlay.trill import laid_on, oscillation
+from azee.motion.overlay.trill import add_trills, oscillation
 from azee.motion.tasks.flatten import flatten
-from azee.motion.tasks.keying import MODES, Keying, Mode
+from azee.motion.tasks.key_posture import PostureSolver, Search
+from azee.motion.tasks.key_selection import MODES, KeySelection, Mode
 from azee.motion.tasks.limbs import Limbs
-from azee.motion.tasks.posture import PostureSolver, Search
-from azee.motion.tasks.timed_task import Bound, bind
+from azee.motion.tasks.schedule import TaskSchedule, bind
+from azee.motion.tasks.timed_task import TimedTask
 from azee.motion.tasks.tracks import Track, tracks
 from azee.quality.measures import block_times, peaks, penetrations
 from azee.quality.motion_report import MotionReport, constraint_results, limit_excess
@@ -39,11 +43,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Animation:
-    """A clip with the report on it.
+    """A clip with its report.
 
     key_times: of all key postures, on the clip's time line. lead_s: when the score's time line
-    starts in the clip: the signer stands idle before and moves into the first posture. tracks: who
-    keys what, on the score's time line.
+    starts in the clip; before, the signer stands in the neutral posture and moves into the first
+    key posture. tracks: which block keys what, on the score's time line.
     """
 
     clip: Clip
@@ -77,39 +81,38 @@ def animate(
     if not (math.isfinite(fps) and fps > 0):
         raise ValueError(f"{fps} frames per second make no clip")
     evaluator = Evaluator(rig, dominant)
-    limbs = Limbs.of(rig.coordinates)
-    bound = bind(flatten(score), rig, evaluator.binding, limbs)
-    keying = Keying(limbs, mode)
+    selection = KeySelection(Limbs.of(rig.coordinates), mode)
     rate = Fraction(fps)
-    inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
-    solved = plan(bound, evaluator, keying, solver or _solver(rig, dominant), inside)
-    lead, times = _frame_times(score.duration, solved.movement, bound.faces, rate)
-    frames = np.array([float(t) for t in times])
 
-    q = solved.movement.sample(frames)
-    trills = [oscillation(b, _middle(b, solved.movement), evaluator) for b in bound.trills]
-    q, short = laid_on(q, frames, trills, rig.coordinates)
-    units = tuple(rig.units)
-    weights = face_weights(bound.faces, rig.face_morphs, units, dominant, frames)
-    if life:
-        rng = np.random.default_rng(seed)
-        q = q + breathing(rig.coordinates, bound.moving, frames, rng)
-        np.clip(q, rig.coordinates.lower, rig.coordinates.upper, out=q)
-        closing = rig.face_morphs.get(BLINK, {})
-        weights += blinks(closing, units, bound.faces, frames, rng)
-        q = q + swaying(rig.coordinates, bound.moving, frames, rng)
-        np.clip(q, rig.coordinates.lower, rig.coordinates.upper, out=q)
-    for unit, weight in rig.lid_weights(q).items():
-        weights[:, units.index(unit)] += weight
-    moving = np.flatnonzero(np.any(weights != 0.0, axis=0))
-    lead_s = float(lead)
-    clip = Clip(
-        frames + lead_s,
-        q,
-        tuple(units[i] for i in moving),
-        weights[:, moving],
-        labels(score, lead_s),
+    # 1. Project the nested score on one time line.
+    timeline = flatten(score)
+
+    # 2. Bind every constraint to the body: a timed task says which limbs it moves and reads.
+    schedule = bind(timeline, rig, evaluator.binding, selection.limbs)
+
+    # 3 to 10. Solve key postures and join them to a movement.
+    frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
+    planned = plan(
+        schedule, evaluator, selection, solver or _default_solver(rig, dominant), frames_inside
     )
+
+    # 11. Sample the movement at the clip's frames, and add trills, face and idle motion.
+    lead, exact_times = _frame_times(score.duration, planned.movement, schedule, rate)
+    times, lead_s = np.array([float(t) for t in exact_times]), float(lead)
+    q = planned.movement.sample(times)
+    trills = [
+        oscillation(t, _posture_amid(t, planned.movement), evaluator) for t in schedule.trills
+    ]
+    q, trill_shortfalls = add_trills(q, times, trills, rig.coordinates)
+    weights = face_weights(
+        schedule.facial_morphs, rig.face_morphs, tuple(rig.units), dominant, times
+    )
+    if life:
+        q, weights = _with_idle_motion(q, weights, times, schedule, rig, seed)
+    weights = _with_lids(weights, q, rig)
+
+    # 12. Make the clip, measure it and report.
+    clip = _clip(score, rig, times, q, weights, lead_s)
     excess, joint = limit_excess(q, rig.coordinates)
     report = MotionReport(
         rig=rig.name,
@@ -118,58 +121,83 @@ def animate(
         duration_s=float(clip.times[-1]),
         lead_s=lead_s,
         score_s=float(score.duration),
-        constraints=constraint_results(bound, solved, short, dominant),
+        constraints=constraint_results(schedule, planned, trill_shortfalls, dominant),
         max_excess_rad=excess,
         excess_joint=joint,
-        postures=solved.postures,
-        blocks=tuple(block_times(bound.all, solved.gauge.giving_way)),
+        postures=planned.postures,
+        blocks=tuple(block_times(schedule.all, planned.monitor.early_ends)),
         peaks=peaks(q, float(fps), rig.coordinates.names, lead_s),
-        look=lambda: penetrations(rig, q, frames, solved.clearing),
+        measure_penetration=lambda: penetrations(rig, q, times, planned.avoidance),
     )
-    return Animation(
-        clip,
-        report,
-        tuple(float(p.time) + lead_s for p in solved.postures),
-        lead_s,
-        tracks(bound, solved.postures, keying, rig.coordinates),
-    )
+    key_times = tuple(float(p.time) + lead_s for p in planned.postures)
+    by_block = tracks(schedule, planned.postures, selection, rig.coordinates)
+    return Animation(clip, report, key_times, lead_s, by_block)
 
 
-def _solver(rig: Rig, dominant: Side) -> PostureSolver:
+def _default_solver(rig: Rig, dominant: Side) -> PostureSolver:
     def answer(
-        tasks: Sequence[Task],
+        ik_tasks: Sequence[Task],
         *,
         start: Array,
         reference: Array,
-        search: Search = Search.WIDE,
+        search: Search = Search.GLOBAL,
         fixed: frozenset[int] = frozenset(),
     ) -> SolveReport:
         options = SolveOptions(fixed=fixed)
-        if search is Search.NEAR:
+        if search is Search.LOCAL:
             options = replace(options, far=False, patience=0)
         return solve(
-            rig, tasks, dominant=dominant, start=start, reference=reference, options=options
+            rig, ik_tasks, dominant=dominant, start=start, reference=reference, options=options
         )
 
     return answer
 
 
-def _middle(bound: Bound, movement: Movement) -> Array:
-    """Posture in the middle of a block, (V,)."""
-    interval = bound.requirement.interval
-    return np.asarray(movement.sample(np.array([float(interval.start + interval.end) / 2]))[0])
-
-
 def _frame_times(
-    score_s: Fraction, movement: Movement, faces: Sequence[Bound], rate: Fraction
+    score_s: Fraction, movement: Movement, schedule: TaskSchedule, rate: Fraction
 ) -> tuple[Fraction, list[Fraction]]:
     """Return the lead before the score's zero and all frames on the score's time line.
 
     The lead is a whole number of frames, so that the score starts on one.
     """
     first, last = min(0.0, movement.start_s), max(float(score_s), movement.end_s)
-    if faces:
+    if schedule.facial_morphs:
         last = max(last, float(score_s) + RAMP_S)
     before = math.ceil((BEFORE_S - first) * rate)
     after = math.ceil((last + AFTER_S) * rate)
     return before / rate, [n / rate for n in range(-before, after + 1)]
+
+
+def _posture_amid(task: TimedTask, movement: Movement) -> Array:
+    """Posture in the middle of a block, (V,)."""
+    middle = float(task.interval.start + task.interval.end) / 2
+    return np.asarray(movement.sample(np.array([middle]))[0])
+
+
+def _with_idle_motion(
+    q: Array, weights: Array, times: Array, schedule: TaskSchedule, rig: Rig, seed: int
+) -> tuple[Array, Array]:
+    """Add breathing, blinks and sway to coordinates (T, V) and face weights, inside the limits."""
+    rng = np.random.default_rng(seed)
+    coordinates, tasks = rig.coordinates, schedule.body_tasks
+    q = q + breathing(coordinates, tasks, times, rng)
+    q = np.clip(q, coordinates.lower, coordinates.upper)
+    closing = rig.face_morphs.get(BLINK, {})
+    weights = weights + blinks(closing, tuple(rig.units), schedule.facial_morphs, times, rng)
+    q = q + swaying(coordinates, tasks, times, rng)
+    return np.clip(q, coordinates.lower, coordinates.upper), weights
+
+
+def _with_lids(weights: Array, q: Array, rig: Rig) -> Array:
+    """Add the weights with which lids follow the eyes, (T, units)."""
+    out, units = weights.copy(), tuple(rig.units)
+    for unit, weight in rig.lid_weights(q).items():
+        out[:, units.index(unit)] += weight
+    return out
+
+
+def _clip(score: Score, rig: Rig, times: Array, q: Array, weights: Array, lead_s: float) -> Clip:
+    """Make a clip, which starts at zero, with those face units that ever have a weight."""
+    used = np.flatnonzero(np.any(weights != 0.0, axis=0))
+    names = tuple(tuple(rig.units)[i] for i in used)
+    return Clip(times + lead_s, q, names, weights[:, used], labels(score, lead_s))

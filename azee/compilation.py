@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from azee.animation import Animation
     from azee.clip.clip import Clip
     from azee.lang.program import Program
-    from azee.motion.tasks.keying import Mode
+    from azee.motion.tasks.key_selection import Mode
     from azee.quality.motion_report import MotionReport
     from azee.score.score import Score
     from azee_grammar.source import Source

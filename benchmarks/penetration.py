@@ -21,7 +21,7 @@ from azee.cli.rules import _example
 from azee.compilation import perform, score_of
 from azee.lang.library import shipped_library
 from azee.lang.program import evaluate_expression, load
-from azee.motion.tasks.posture import KeyPosture
+from azee.motion.tasks.key_posture import KeyPosture
 from azee.score.score import Score
 from azee_grammar.files import read_source
 from azee_grammar.library import shipped_names
@@ -90,7 +90,7 @@ def contacts(rig: Rig, posture: KeyPosture) -> list[Contact]:
     frames = rig.chain.frames(posture.coordinates)
     return [
         meant_contact(evaluator, frames, task.constraint)
-        for task in posture.tasks
+        for task in posture.ik_tasks
         if isinstance(task.constraint, Place) and isinstance(task.constraint.point, SitePoint)
     ]
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import azee
 from azee.compilation import Compilation
-from azee.motion.tasks.keying import MODES, Mode
+from azee.motion.tasks.key_selection import MODES, Mode
 
 HERE = Path(__file__).parent
 PAGE = HERE / "motion.md"

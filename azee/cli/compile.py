@@ -21,7 +21,7 @@ from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
     from azee.compilation import Hand, Method
-    from azee.motion.tasks.keying import Mode
+    from azee.motion.tasks.key_selection import Mode
 
 
 PATIENCE = "Preparing the solver: the first run after installing takes longer …"

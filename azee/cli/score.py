@@ -15,7 +15,7 @@ from azee.formats import writing
 
 if TYPE_CHECKING:
     from azee.compilation import Hand
-    from azee.motion.tasks.keying import Mode
+    from azee.motion.tasks.key_selection import Mode
     from azee.motion.tasks.tracks import Track
     from azee.score.score import Score
 

@@ -1,27 +1,28 @@
-"""What a clip is worth beside its constraints: how fast joints turn, and what enters what."""
+"""Measures of a clip beside its constraints: speeds of joints, penetration, times of blocks."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.curves.avoidance import Clearing
-from azee.motion.curves.capsule_overlap import Overlaps
-from azee.motion.tasks.timed_task import Bound, GivingWay
+from azee.motion.curves.avoidance import CollisionAvoidance
+from azee.motion.curves.capsule_overlap import CapsuleOverlaps
+from azee.motion.tasks.timed_task import EarlyEnd, TimedTask
 from azee_rig.rig import Rig
 from azee_solver.penetration import mesh_penetration
 
 Array = NDArray[np.float64]
 
-SEEN_M = -0.002
-"""Where capsules are as near as this the skin is looked at: they do not hold all of it."""
+NEAR_SKIN_M = -0.002
+"""The skin is measured where capsules overlap by more, or are nearer, than this: they do not
+enclose all of it."""
 LEAST_M = 0.001
-"""Shallower penetration of the skin is not told."""
+"""Shallower penetration of the skin is not reported."""
 FINGERS_LEAST_M = 0.003
-"""Fingers of one hand have no skin to judge by here: capsules, and only what shows."""
+"""Fingers of one hand are measured on capsules alone; what is shallower would not be seen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,10 +70,10 @@ def peaks(q: Array, fps: float, names: Sequence[str], lead_s: float) -> tuple[Co
 
 @dataclass(frozen=True, slots=True)
 class Penetration:
-    """Something inside something else for a while, on the score's time line.
+    """One part of the body inside another for a while, on the score's time line.
 
-    time_s: when it is deepest. pair: what is in what. on: what was measured, skin or capsules.
-    intended: a touch that the score asks for.
+    time_s: when it is deepest. pair: the two parts. on: what was measured, skin or capsules.
+    intended: the score asks for a touch there.
     """
 
     start_s: float
@@ -96,57 +97,71 @@ class Penetration:
         }
 
 
-def penetrations(rig: Rig, q: Array, times_s: Array, clearing: Clearing) -> tuple[Penetration, ...]:
-    """Look for penetration in every frame: with capsules, then on the skin where they are near.
+def penetrations(
+    rig: Rig, q: Array, times_s: Array, avoidance: CollisionAvoidance
+) -> tuple[Penetration, ...]:
+    """Find penetration in every frame: on capsules, and where these are near, on the skin.
 
     Args: q: (T, V). times_s: (T,) on the score's time line.
     """
-    overlaps = clearing.overlaps
-    plain = overlaps.reach(())
-    depth = np.vstack([overlaps.depth(part, plain) for part in _chunks(q)])
-    same_hand = overlaps.same_hand
-    out: list[Penetration] = []
-    for regions, columns in _by_regions(overlaps, ~same_hand).items():
-        deepest = depth[:, columns].max(axis=1)
-        for run in _runs(deepest > SEEN_M):
+    overlaps = avoidance.overlaps
+    no_touch = overlaps.axis_distances(())
+    depths = np.vstack([overlaps.depths(part, no_touch) for part in _chunks(q)])
+    found = [
+        *_on_skin(rig, q, times_s, avoidance, depths),
+        *_between_fingers(times_s, avoidance, depths),
+    ]
+    return tuple(sorted(found, key=lambda p: (p.start_s, p.pair)))
+
+
+def _on_skin(
+    rig: Rig, q: Array, times_s: Array, avoidance: CollisionAvoidance, depths: Array
+) -> Iterator[Penetration]:
+    """Yield what penetrates what on the skin, once per stretch of frames with near capsules."""
+    overlaps = avoidance.overlaps
+    for regions, columns in _by_regions(overlaps, ~overlaps.same_hand).items():
+        deepest = depths[:, columns].max(axis=1)
+        for run in _runs(deepest > NEAR_SKIN_M):
             worst = run[int(deepest[run].argmax())]
             found = [p for p in mesh_penetration(rig, q[worst]) if {p.limb, p.body} == {*regions}]
             if not found or found[0].depth_m < LEAST_M:
                 continue
-            pair = columns[int(depth[worst, columns].argmax())]
+            pair = columns[int(depths[worst, columns].argmax())]
             span = float(times_s[run[0]]), float(times_s[run[-1]]), float(times_s[worst])
-            meant = _meant(clearing, pair, float(times_s[worst]))
-            out.append(
-                Penetration(*span, (found[0].limb, found[0].body), found[0].depth_m, "skin", meant)
-            )
-    for pair in np.flatnonzero(same_hand & (depth.max(axis=0) > FINGERS_LEAST_M)).tolist():
-        for run in _runs(depth[:, pair] > FINGERS_LEAST_M):
-            worst = run[int(depth[run, pair].argmax())]
+            intended = _is_intended(avoidance, pair, float(times_s[worst]))
+            names = (found[0].limb, found[0].body)
+            yield Penetration(*span, names, found[0].depth_m, "skin", intended)
+
+
+def _between_fingers(
+    times_s: Array, avoidance: CollisionAvoidance, depths: Array
+) -> Iterator[Penetration]:
+    """Yield what penetrates what among the fingers of one hand, on capsules."""
+    overlaps = avoidance.overlaps
+    deep = overlaps.same_hand & (depths.max(axis=0) > FINGERS_LEAST_M)
+    for pair in np.flatnonzero(deep).tolist():
+        for run in _runs(depths[:, pair] > FINGERS_LEAST_M):
+            worst = run[int(depths[run, pair].argmax())]
             span = float(times_s[run[0]]), float(times_s[run[-1]]), float(times_s[worst])
-            meant = _meant(clearing, pair, float(times_s[worst]))
-            out.append(
-                Penetration(
-                    *span, overlaps.names(pair), float(depth[worst, pair]), "capsules", meant
-                )
-            )
-    return tuple(sorted(out, key=lambda p: (p.start_s, p.pair)))
+            intended = _is_intended(avoidance, pair, float(times_s[worst]))
+            depth = float(depths[worst, pair])
+            yield Penetration(*span, overlaps.names(pair), depth, "capsules", intended)
 
 
 def block_times(
-    bounds: Iterable[Bound], giving_way: Mapping[int, GivingWay]
+    tasks: Iterable[TimedTask], early_ends: Mapping[int, EarlyEnd]
 ) -> list[dict[str, object]]:
-    """Return the blocks of a score with their times, and until when each holds what it asks."""
+    """Return the blocks of a score with their times, and until when their constraints hold."""
     found: dict[tuple[str, ...], dict[str, object]] = {}
-    for b in bounds:
-        r = b.requirement
-        given = giving_way.get(r.rank)
-        held = float(r.interval.end if given is None else given.start)
+    for task in tasks:
+        early = early_ends.get(task.rank)
+        held = float(task.interval.end if early is None else early.time)
         row = found.setdefault(
-            r.path,
+            task.path,
             {
-                "path": [*r.path],
-                "start_s": float(r.interval.start),
-                "end_s": float(r.interval.end),
+                "path": [*task.path],
+                "start_s": float(task.interval.start),
+                "end_s": float(task.interval.end),
                 "held_until_s": held,
             },
         )
@@ -158,22 +173,23 @@ def _chunks(q: Array) -> list[Array]:
     return np.array_split(q, max(1, len(q) // 240))
 
 
-def _meant(clearing: Clearing, pair: int, time_s: float) -> bool:
-    """Whether a pair may come nearer than others because the score wants a touch."""
-    overlaps = clearing.overlaps
-    wanted = overlaps.reach(clearing.meant(time_s, time_s))
-    return bool(wanted[pair] < overlaps.reach(())[pair] - 1e-9)
+def _is_intended(avoidance: CollisionAvoidance, pair: int, time_s: float) -> bool:
+    """Whether a pair may come nearer than usual because the score asks for a touch."""
+    overlaps = avoidance.overlaps
+    allowed = overlaps.axis_distances(avoidance.intended_touches(time_s, time_s))
+    return bool(allowed[pair] < overlaps.axis_distances(())[pair] - 1e-9)
 
 
 def _runs(hits: NDArray[np.bool_]) -> list[NDArray[np.int64]]:
+    """Return the rows of every stretch of hits."""
     rows = np.flatnonzero(hits)
     return [run for run in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(run)]
 
 
 def _by_regions(
-    overlaps: Overlaps, chosen: NDArray[np.bool_]
+    overlaps: CapsuleOverlaps, chosen: NDArray[np.bool_]
 ) -> dict[tuple[str, str], NDArray[np.int64]]:
-    """Columns of pairs by the parts of the body that they belong to, (…,) indices each."""
+    """Return the chosen pairs by the parts of the body that they belong to, indices each."""
     found: dict[tuple[str, str], list[int]] = {}
     for pair in np.flatnonzero(chosen).tolist():
         a, b = sorted(overlaps.regions(pair))

@@ -1,4 +1,4 @@
-"""What a movement is worth: every constraint over its whole block, limits, and the solving."""
+"""The report of a movement: every constraint over its whole block, limits, and the solving."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from azee.motion.keys.plan import Plan
 from azee.motion.keys.residual_monitor import TOLERANCE
-from azee.motion.tasks.timed_task import Bound, BoundScore
+from azee.motion.tasks.schedule import TaskSchedule
+from azee.motion.tasks.timed_task import TimedTask
 from azee.quality.measures import CoordinatePeaks, Penetration
 from azee_rig.coordinates import Coordinates
 from azee_solver import describe
@@ -21,11 +22,12 @@ from azee_solver.constraint import Constraint, Trill
 from azee_solver.geometry import Side
 
 if TYPE_CHECKING:
-    from azee.motion.tasks.posture import KeyPosture
+    from azee.motion.tasks.key_posture import KeyPosture
 
 Array = NDArray[np.float64]
 
 _ROUNDING = 1.0 + 1e-6
+"""A residual counts as met up to the tolerance times this."""
 FACE_TOLERANCE_M = TOLERANCE["m"]
 
 
@@ -72,8 +74,8 @@ class ConstraintResult:
 class MotionReport:
     """The report of one animation.
 
-    blocks: their times, and until when each holds what it asks. peaks: of the coordinates that
-    move. look: finds what enters what.
+    blocks: their times, and until when their constraints hold. peaks: largest speed, acceleration
+    and jerk of the coordinates that move. measure_penetration: measures it in every frame.
     """
 
     rig: str
@@ -88,12 +90,12 @@ class MotionReport:
     postures: tuple[KeyPosture, ...]
     blocks: tuple[Mapping[str, object], ...]
     peaks: tuple[CoordinatePeaks, ...]
-    look: Callable[[], tuple[Penetration, ...]]
+    measure_penetration: Callable[[], tuple[Penetration, ...]]
 
     @cached_property
     def clip_penetration(self) -> tuple[Penetration, ...]:
-        """What enters what in any frame; looked for when asked, for it takes a while."""
-        return self.look()
+        """What penetrates what in any frame; measured when first asked for, as it takes long."""
+        return self.measure_penetration()
 
     @property
     def met(self) -> bool:
@@ -102,7 +104,7 @@ class MotionReport:
 
     @property
     def evaluations(self) -> int:
-        """Evaluations of objectives, all solves together."""
+        """Evaluations of the solver's objectives, all solves together."""
         return sum(p.report.evaluations for p in self.postures if not p.reused)
 
     @property
@@ -112,7 +114,7 @@ class MotionReport:
 
     @property
     def explain_s(self) -> float:
-        """Time spent finding out why what misses misses."""
+        """Time spent finding the reasons of unmet constraints."""
         return float(sum(p.report.explain_s for p in self.postures if not p.reused))
 
     def as_json(self) -> dict[str, object]:
@@ -139,51 +141,51 @@ class MotionReport:
 
 
 def constraint_results(
-    score: BoundScore, plan: Plan, short: Mapping[int, float], dominant: Side
+    schedule: TaskSchedule, plan: Plan, trill_shortfalls: Mapping[int, float], dominant: Side
 ) -> tuple[ConstraintResult, ...]:
-    """Measure every requirement at the clip's frames and at the keys inside its block.
+    """Measure every task at the clip's frames and at the keys inside its block.
 
-    What trills lay on top is not counted against the constraints that they swing about.
+    Trills are left out of the postures that are measured: they swing about what others fix.
 
-    Args: short: angles by which trills fall short, by rank.
+    Args: trill_shortfalls: angles by which trills fall short, by rank.
     """
-    measurable = {b.requirement.rank for b in plan.gauge.measurable}
+    measured = {t.rank for t in plan.monitor.measured_tasks}
     out = []
-    for bound in score.all:
-        rank = bound.requirement.rank
-        if rank in measurable:
-            out.append(_measured(bound, plan, dominant))
-        elif isinstance(bound.constraint, Trill):
-            out.append(_trill(bound, short.get(rank, 0.0), dominant))
+    for task in schedule.all:
+        if task.rank in measured:
+            out.append(_measured(task, plan, dominant))
+        elif isinstance(task.constraint, Trill):
+            out.append(_trill(task, trill_shortfalls.get(task.rank, 0.0), dominant))
         else:
-            out.append(_result(bound, dominant, 0.0, "m", FACE_TOLERANCE_M, None))
+            out.append(_result(task, dominant, 0.0, "m", FACE_TOLERANCE_M, None))
     return tuple(out)
 
 
-def _measured(bound: Bound, plan: Plan, dominant: Side) -> ConstraintResult:
-    gauge = plan.gauge
-    rows = gauge.inside(bound, plan.instants.seconds)
-    values = gauge.residual(bound, plan.instants.only(rows))
+def _measured(task: TimedTask, plan: Plan, dominant: Side) -> ConstraintResult:
+    monitor = plan.monitor
+    rows = monitor.rows_inside(task, plan.samples.seconds)
+    values = monitor.residual(task, plan.samples.only(rows))
     residual = float(np.max(values, initial=0.0))
-    unit, tolerance = gauge.unit(bound), gauge.tolerance(bound)
+    unit, tolerance = monitor.unit(task), monitor.tolerance(task)
     reason = None
     if not residual <= tolerance * _ROUNDING:
-        reason = _reason(bound, plan, residual)
-    return _result(bound, dominant, residual, unit, tolerance, reason)
+        reason = _reason(task, plan, residual)
+    return _result(task, dominant, residual, unit, tolerance, reason)
 
 
-def _reason(bound: Bound, plan: Plan, residual: float) -> str:
-    given = plan.gauge.giving_way.get(bound.requirement.rank)
-    if given is not None:
+def _reason(task: TimedTask, plan: Plan, residual: float) -> str:
+    """Why a task is unmet: its early end, else the solver's worst answer at a key."""
+    early = plan.monitor.early_ends.get(task.rank)
+    if early is not None:
         return (
-            f"gives way at {float(given.start):.3f} s to {'/'.join(given.to)}, "
+            f"gives way at {float(early.time):.3f} s to {'/'.join(early.successor)}, "
             "which starts at the instant this ends and wants another posture"
         )
     worst, found = -math.inf, None
     for posture in plan.postures:
         for answer in posture.report.constraints:
-            same = answer.task.constraint == bound.constraint
-            if same and bound in posture.bounds and not answer.met and answer.residual > worst:
+            same = answer.task.constraint == task.constraint
+            if same and task in posture.timed_tasks and not answer.met and answer.residual > worst:
                 worst, found = answer.residual, answer.reason
     if found:
         return found
@@ -192,29 +194,28 @@ def _reason(bound: Bound, plan: Plan, residual: float) -> str:
     return "met at the keys but not at every frame between them"
 
 
-def _trill(bound: Bound, short: float, dominant: Side) -> ConstraintResult:
+def _trill(task: TimedTask, shortfall: float, dominant: Side) -> ConstraintResult:
     tolerance = TOLERANCE["rad"]
-    reason = None if short <= tolerance else "the limits of its joints are in the way"
-    return _result(bound, dominant, short, "rad", tolerance, reason)
+    reason = None if shortfall <= tolerance else "the limits of its joints are in the way"
+    return _result(task, dominant, shortfall, "rad", tolerance, reason)
 
 
 def _result(
-    bound: Bound,
+    task: TimedTask,
     dominant: Side,
     residual: float,
     unit: str,
     tolerance: float,
     reason: str | None,
 ) -> ConstraintResult:
-    r = bound.requirement
     return ConstraintResult(
-        path=r.path,
-        rule=r.rule,
-        kind=kind(r.constraint),
-        subject=describe.subject(r.constraint, dominant),
-        target=describe.target(r.constraint, dominant),
-        start_s=float(r.interval.start),
-        end_s=float(r.interval.end),
+        path=task.path,
+        rule=task.requirement.rule,
+        kind=kind(task.constraint),
+        subject=describe.subject(task.constraint, dominant),
+        target=describe.target(task.constraint, dominant),
+        start_s=float(task.interval.start),
+        end_s=float(task.interval.end),
         residual=residual if math.isfinite(residual) else None,
         unit=unit,
         tolerance=tolerance,
@@ -239,8 +240,8 @@ def _keyframe(posture: KeyPosture) -> dict[str, object]:
     return {
         "time_s": float(posture.time),
         "origin": posture.origin.value,
-        "constraints": len(posture.tasks),
-        "unmet": posture.misses(),
+        "constraints": len(posture.ik_tasks),
+        "unmet": posture.unmet_count,
         "limbs": sorted(posture.limbs),
         "reused": posture.reused,
     }
@@ -252,7 +253,7 @@ def _problems(posture: KeyPosture) -> Sequence[dict[str, object]]:
             "time_s": float(posture.time),
             "name": p.name,
             "constraints": [
-                {"path": [*posture.tasks[i].path], "kind": kind(posture.tasks[i].constraint)}
+                {"path": [*posture.ik_tasks[i].path], "kind": kind(posture.ik_tasks[i].constraint)}
                 for i in p.constraints
             ],
             "chain": [*p.chain],

@@ -32,7 +32,7 @@ def example_tree(
     Args: thumb: ask for the published directions of the thumb too, of which one is impossible.
     """
     score = score_of(load(read_source(source)), None, None)
-    tasks = perform(score, rig, mode="flat").report.postures[0].tasks
+    tasks = perform(score, rig, mode="flat").report.postures[0].ik_tasks
     if not thumb:
         tasks = tuple(d for d in tasks if not _is_of_thumb(d.constraint))
     asked = Problem("tree", 0, tasks, ())

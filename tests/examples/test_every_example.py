@@ -23,7 +23,7 @@ from programs import Node, Python
 import azee
 from azee.cli.main import run
 from azee.formats import SUFFIXES
-from azee.motion.tasks.keying import MODES
+from azee.motion.tasks.key_selection import MODES
 from azee_solver.penetration import mesh_penetration
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

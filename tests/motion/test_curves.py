@@ -7,70 +7,70 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from azee.motion.curves.limb_curves import (
-    GO_ON_S,
+    DIRECT_WITHIN_S,
     LONGEST_S,
     SHORTEST_S,
+    LimbCurve,
     LimbKey,
-    LimbTrack,
-    track,
+    limb_curve,
     transition_s,
 )
 from azee.motion.curves.movement import Movement
 from azee.motion.tasks.limbs import Limbs
 from azee_rig.coordinates import Coordinates
 
-REST = np.zeros(2)
+NEUTRAL = np.zeros(2)
 A, B, C = np.array([1.0, -0.5]), np.array([-0.3, 0.7]), np.array([0.4, 0.4])
 
 
-def sample(t: LimbTrack, *times: float) -> NDArray[np.float64]:
+def sample(t: LimbCurve, *times: float) -> NDArray[np.float64]:
     return t.sample(np.array(times))
 
 
-def test_a_limb_is_at_its_keys_on_time_and_at_rest_before_and_after() -> None:
-    t = track([LimbKey(1.0, A), LimbKey(1.5, B)], REST)
+def test_a_limb_is_at_its_keys_on_time_and_neutral_before_and_after() -> None:
+    t = limb_curve([LimbKey(1.0, A), LimbKey(1.5, B)], NEUTRAL)
     assert sample(t, 1.0, 1.5) == pytest.approx(np.stack([A, B]))
     assert sample(t, t.start_s - 0.1, t.start_s, t.end_s, t.end_s + 9) == pytest.approx(0.0)
-    assert t.start_s == pytest.approx(1.0 - transition_s(A, REST))
-    assert t.end_s == pytest.approx(1.5 + transition_s(B, REST))
+    assert t.start_s == pytest.approx(1.0 - transition_s(A, NEUTRAL))
+    assert t.end_s == pytest.approx(1.5 + transition_s(B, NEUTRAL))
 
 
-def test_ways_from_and_to_rest_last_longer_the_farther_they_lead() -> None:
-    ways = [transition_s(REST, np.array([way, 0.0])) for way in (0.0, 0.4, 1.0, 9.0)]
+def test_transitions_from_and_to_neutral_last_longer_the_farther_they_lead() -> None:
+    ways = [transition_s(NEUTRAL, np.array([way, 0.0])) for way in (0.0, 0.4, 1.0, 9.0)]
     assert ways == sorted(ways)
     assert ways[0] == SHORTEST_S
     assert ways[-1] == LONGEST_S
 
 
 def test_between_two_keys_a_limb_moves_straight_by_minimum_jerk() -> None:
-    t = track([LimbKey(0.0, A), LimbKey(0.4, B)], REST)
+    t = limb_curve([LimbKey(0.0, A), LimbKey(0.4, B)], NEUTRAL)
     tau = 0.25
     s = 10 * tau**3 - 15 * tau**4 + 6 * tau**5
     assert sample(t, 0.1)[0] == pytest.approx(A + s * (B - A))
 
 
-def test_a_limb_needed_soon_goes_on_and_one_needed_late_rests() -> None:
-    soon = track([LimbKey(0.0, A), LimbKey(GO_ON_S, B)], REST)
+def test_a_limb_needed_soon_goes_on_directly_and_one_needed_late_returns() -> None:
+    soon = limb_curve([LimbKey(0.0, A), LimbKey(DIRECT_WITHIN_S, B)], NEUTRAL)
     assert len(soon.keys) == 4
-    late = track([LimbKey(0.0, A), LimbKey(3.0, B)], REST)
+    late = limb_curve([LimbKey(0.0, A), LimbKey(3.0, B)], NEUTRAL)
     assert sample(late, 1.0, 1.5, 2.0) == pytest.approx(0.0)
     assert len(late.keys) == 6
 
 
-def test_a_limb_rests_only_where_there_is_time_to() -> None:
+def test_a_limb_returns_to_neutral_only_where_there_is_time_to() -> None:
     far = np.array([3.0, 3.0])
     gap = 2 * LONGEST_S - 0.01
-    assert len(track([LimbKey(0.0, far), LimbKey(gap, far)], REST).keys) == 4
+    assert len(limb_curve([LimbKey(0.0, far), LimbKey(gap, far)], NEUTRAL).keys) == 4
 
 
-def test_a_limb_that_is_held_does_not_rest() -> None:
-    t = track([LimbKey(0.0, A, held=True), LimbKey(9.0, A)], REST)
+def test_a_limb_that_is_held_does_not_return() -> None:
+    t = limb_curve([LimbKey(0.0, A, held=True), LimbKey(9.0, A)], NEUTRAL)
     assert sample(t, 4.5)[0] == pytest.approx(A)
 
 
 def test_a_limb_passes_keys_on_its_way_without_stopping_or_jerking() -> None:
     keys = [LimbKey(0.0, A), LimbKey(0.3, C, passing=True), LimbKey(1.0, B)]
-    t = track(keys, REST)
+    t = limb_curve(keys, NEUTRAL)
     assert sample(t, 0.3)[0] == pytest.approx(C)
     h = 1e-3
     around = sample(t, *(0.3 + h * np.arange(-2, 3)))
@@ -85,12 +85,12 @@ def test_a_limb_passes_keys_on_its_way_without_stopping_or_jerking() -> None:
 
 
 def test_an_idle_limb_never_moves() -> None:
-    t = track([], A)
+    t = limb_curve([], A)
     assert sample(t, -1.0, 0.0, 7.0) == pytest.approx(np.stack([A, A, A]))
 
 
 def test_two_keys_at_one_instant_do_no_harm() -> None:
-    t = track([LimbKey(0.5, A), LimbKey(0.5, B)], REST)
+    t = limb_curve([LimbKey(0.5, A), LimbKey(0.5, B)], NEUTRAL)
     assert np.all(np.isfinite(sample(t, 0.4, 0.5, 0.6)))
 
 
@@ -122,14 +122,14 @@ def test_no_coordinate_ever_leaves_its_limits(
     for gap, where, passing, held in steps:
         time += Fraction(gap, 20)
         keys.append((float(time), lower + np.array(where) * (upper - lower), passing, held))
-    tracks = {
-        limb: track([LimbKey(t, q[m], passing, held) for t, q, passing, held in keys],
+    curves = {
+        limb: limb_curve([LimbKey(t, q[m], passing, held) for t, q, passing, held in keys],
                     COORDINATES.idle[m])
         for limb, m in limbs.members.items()
     }  # fmt: skip
-    q = Movement(COORDINATES, limbs, tracks).sample(np.linspace(-1, float(time) + 1, 333))
+    q = Movement(COORDINATES, limbs, curves).sample(np.linspace(-1, float(time) + 1, 333))
     assert np.all(q >= lower)
     assert np.all(q <= upper)
-    at_keys = Movement(COORDINATES, limbs, tracks).sample(np.array([k[0] for k in keys]))
+    at_keys = Movement(COORDINATES, limbs, curves).sample(np.array([k[0] for k in keys]))
     for got, key in zip(at_keys, keys, strict=True):
         assert got == pytest.approx(key[1], abs=1e-9)

@@ -5,7 +5,7 @@ import pytest
 
 from azee.motion.overlay.face import Plateau, face_weights, weight_curve
 from azee.motion.tasks.requirement import Requirement
-from azee.motion.tasks.timed_task import Bound
+from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
 from azee_solver.constraint import Morph
 from azee_solver.geometry import Side
@@ -18,11 +18,11 @@ def curve(*blocks: tuple[str, str, float], at: list[float]) -> list[float]:
     return [round(w, 9) for w in weight_curve(plateaus, np.array(at)).tolist()]
 
 
-def face(name: str, weight: float, start: str, end: str) -> Bound:
+def face(name: str, weight: float, start: str, end: str) -> TimedTask:
     interval = Interval(F(start), F(end))
     requirement = Requirement(Morph(name, None, weight), ("FACE",), None, interval, interval, 0)
     nothing: frozenset[int] = frozenset()
-    return Bound(requirement, "face", nothing, nothing, frozenset(), frozenset(), dynamic=False)
+    return TimedTask(requirement, "face", nothing, nothing, frozenset(), frozenset(), dynamic=False)
 
 
 def test_a_long_block_is_a_plateau_between_two_ramps_inside_it() -> None:

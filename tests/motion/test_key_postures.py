@@ -12,8 +12,8 @@ import pytest
 from numpy.typing import NDArray
 
 from azee.animation import Animation, animate
-from azee.motion.keys.transpath import deferred, travels
-from azee.motion.tasks.posture import Origin, Search
+from azee.motion.keys.transpath import boundaries_on_paths, path_motions
+from azee.motion.tasks.key_posture import Origin, Search
 from azee.score.interval import Interval
 from azee.score.score import Block, Group, Hold, Key, Score
 from azee_rig.load import load_rig
@@ -80,14 +80,14 @@ class Recorder:
 
     def __call__(
         self,
-        tasks: Sequence[Task],
+        ik_tasks: Sequence[Task],
         *,
         start: NDArray[np.float64],
         reference: NDArray[np.float64],
-        search: Search = Search.WIDE,
+        search: Search = Search.GLOBAL,
         fixed: frozenset[int] = frozenset(),
     ) -> SolveReport:
-        constraints = tuple(d.constraint for d in tasks)
+        constraints = tuple(d.constraint for d in ik_tasks)
         self.asked.append(Asked(constraints, start, reference, search, fixed))
         q = np.array(reference)
         q[rig().coordinates.index["arm_R.flexion"]] += 0.2
@@ -95,7 +95,7 @@ class Recorder:
         q = np.clip(q, rig().coordinates.lower, rig().coordinates.upper)
         q[[*fixed]] = start[[*fixed]]
         reports = []
-        for d in tasks:
+        for d in ik_tasks:
             met = self.can(constraints) and d.constraint not in self.never
             why, residual = (None, 0.0) if met else ("no", 1.0)
             reports.append(ConstraintReport(d, Side.RIGHT, residual, "m", 1e-3, met, why))
@@ -123,7 +123,7 @@ def play(score: Score, solver: Recorder) -> Animation:
 
 
 def boundaries(solver: Recorder) -> list[Asked]:
-    return [a for a in solver.asked if a.search is Search.WIDE]
+    return [a for a in solver.asked if a.search is Search.GLOBAL]
 
 
 def test_what_contradicts_is_never_asked_of_one_posture() -> None:
@@ -143,9 +143,9 @@ def test_what_no_posture_can_join_parts_and_the_later_block_has_the_instant() ->
     later = Place(Site("T_TIP", S), RIGHT)
     animation = play(sync(block("A", "0", "1", HERE), block("B", "1", "1", later)), solver)
     at_one = [p for p in animation.report.postures if p.time == 1]
-    assert [[d.constraint for d in p.tasks] for p in at_one] == [[later]]
+    assert [[d.constraint for d in p.ik_tasks] for p in at_one] == [[later]]
     early = [p for p in animation.report.postures if p.origin is Origin.EARLY_END]
-    assert [[d.constraint for d in p.tasks] for p in early] == [[HERE]]
+    assert [[d.constraint for d in p.ik_tasks] for p in early] == [[HERE]]
     assert F(1, 2) <= early[0].time < 1
 
 
@@ -154,10 +154,10 @@ def test_what_one_posture_can_join_is_asked_of_one() -> None:
     later = Place(Site("T_TIP", S), RIGHT)
     animation = play(sync(block("A", "0", "1", HERE), block("B", "1", "1", later)), solver)
     (at_one,) = [p for p in animation.report.postures if p.time == 1]
-    assert {d.constraint for d in at_one.tasks} == {HERE, later}
+    assert {d.constraint for d in at_one.ik_tasks} == {HERE, later}
 
 
-def test_a_block_of_no_length_cannot_give_way() -> None:
+def test_a_block_of_no_length_cannot_end_early() -> None:
     solver = Recorder()
     play(sync(block("A", "0", "0", HERE), block("B", "0", "1", THERE)), solver)
     assert solver.placed()[0] == [MIDDLE, RIGHT]
@@ -212,7 +212,7 @@ def _free(asked: Asked) -> set[str]:
     return {names[v].partition(".")[0] for v in set(range(len(names))) - asked.fixed}
 
 
-def test_what_is_new_is_solved_beside_what_stands() -> None:
+def test_what_is_new_is_solved_while_what_lasts_stays_still() -> None:
     solver = Recorder()
     animation = play(sync(block("A", "0", "2", HERE), block("N", "1", ".5", NOD)), solver)
     first, second = boundaries(solver)
@@ -237,8 +237,8 @@ def test_what_follows_a_new_posture_is_solved_with_it_and_the_trunk_stays() -> N
 
 def test_a_head_that_the_solver_levelled_stays_level_while_the_trunk_is_needed() -> None:
     class Leveller(Recorder):
-        def __call__(self, tasks: Sequence[Task], **how: object) -> SolveReport:
-            report = super().__call__(tasks, **how)  # type: ignore[arg-type]
+        def __call__(self, ik_tasks: Sequence[Task], **how: object) -> SolveReport:
+            report = super().__call__(ik_tasks, **how)  # type: ignore[arg-type]
             q = np.array(report.coordinates)
             q[rig().coordinates.index["head.flexion"]] = -0.2
             return replace(report, coordinates=q)
@@ -251,7 +251,7 @@ def test_a_head_that_the_solver_levelled_stays_level_while_the_trunk_is_needed()
     assert [p.reused for p in animation.report.postures] == [False, True]
 
 
-def test_what_could_not_be_met_keeps_its_answer_while_something_else_is_solved_beside_it() -> None:
+def test_an_unmet_task_keeps_its_answer_while_a_new_one_is_solved() -> None:
     solver = Recorder(never=frozenset((HERE,)))
     animation = play(sync(block("A", "0", "2", HERE), block("N", "1", ".5", NOD)), solver)
     assert [a.constraints for a in boundaries(solver)] == [(HERE,), (NOD,)]
@@ -259,7 +259,7 @@ def test_what_could_not_be_met_keeps_its_answer_while_something_else_is_solved_b
     assert [(c.task.constraint, c.met) for c in at_one.report.constraints] == [
         (NOD, True), (HERE, False),
     ]  # fmt: skip
-    assert [d.constraint for d in at_one.tasks] == [NOD, HERE]
+    assert [d.constraint for d in at_one.ik_tasks] == [NOD, HERE]
 
 
 def test_a_head_comes_back_though_a_hand_goes_by_it() -> None:
@@ -273,10 +273,10 @@ def test_a_head_comes_back_though_a_hand_goes_by_it() -> None:
     head = rig().coordinates.index["head.flexion"]
 
     class Nodder(Recorder):
-        def __call__(self, tasks: Sequence[Task], **how: object) -> SolveReport:
-            report = super().__call__(tasks, **how)  # type: ignore[arg-type]
+        def __call__(self, ik_tasks: Sequence[Task], **how: object) -> SolveReport:
+            report = super().__call__(ik_tasks, **how)  # type: ignore[arg-type]
             q = np.array(report.coordinates)
-            if any(d.constraint == NOD for d in tasks):
+            if any(d.constraint == NOD for d in ik_tasks):
                 q[head] = 0.1
             return replace(report, coordinates=q)
 
@@ -289,13 +289,13 @@ def test_a_head_comes_back_though_a_hand_goes_by_it() -> None:
     assert at[0.3] == at[0.6] == at[0.7] == pytest.approx(0.1)
 
 
-def test_where_what_stands_is_in_the_way_all_is_solved_anew() -> None:
+def test_where_what_lasts_is_in_the_way_all_is_solved_anew() -> None:
     solver = Recorder(lambda constraints: NOD not in constraints)
     play(sync(block("A", "0", "2", HERE), block("N", "1", ".5", NOD)), solver)
     assert [bool(a.fixed) for a in boundaries(solver)[1:3]] == [True, False]
 
 
-def test_a_limb_long_unused_has_gone_to_rest() -> None:
+def test_a_limb_long_unused_is_neutral_again() -> None:
     solver = Recorder()
     weak = Place(WEAK_TIP, MIDDLE)
     play(sync(block("A", "0", ".5", HERE), block("B", "3", "1", weak)), solver)
@@ -304,7 +304,7 @@ def test_a_limb_long_unused_has_gone_to_rest() -> None:
     assert second.start == pytest.approx(rig().coordinates.idle)
 
 
-def test_on_the_way_the_trunk_keeps_its_curve_and_only_the_near_is_searched() -> None:
+def test_on_a_path_the_trunk_keeps_its_curve_and_the_search_is_local() -> None:
     solver = Recorder()
     path = Transpath(TIP, Straight())
     animation = play(
@@ -312,23 +312,23 @@ def test_on_the_way_the_trunk_keeps_its_curve_and_only_the_near_is_searched() ->
              block("B", "1.5", ".5", THERE)),
         solver,
     )  # fmt: skip
-    on_the_way = [a for a in solver.asked if a.search is Search.NEAR]
+    on_path = [a for a in solver.asked if a.search is Search.LOCAL]
     trunk = {i for i, n in enumerate(rig().coordinates.names) if n.startswith("back_")}
-    assert on_the_way
-    assert all(a.fixed >= trunk for a in on_the_way)
+    assert on_path
+    assert all(a.fixed >= trunk for a in on_path)
     assert all(isinstance(p, WorldPoint) for points in solver.placed()[2:] for p in points)
     assert Origin.PATH in [p.origin for p in animation.report.postures]
 
 
-def test_what_no_boundary_could_meet_is_not_searched_for_on_the_way() -> None:
+def test_what_no_boundary_could_meet_is_not_searched_for_on_a_path() -> None:
     blocks = (
         block("A", "0", ".5", HERE, NOD),
         block("P", ".5", "1", Transpath(TIP, Straight()), NOD),
         block("B", "1.5", ".5", THERE, NOD),
     )
-    hopeless = Recorder(never=frozenset((NOD,)))
-    play(sync(*blocks), hopeless)
-    assert len(boundaries(hopeless)) == 2
+    infeasible = Recorder(never=frozenset((NOD,)))
+    play(sync(*blocks), infeasible)
+    assert len(boundaries(infeasible)) == 2
     unlucky = Recorder(lambda constraints: HERE in constraints or THERE in constraints)
     play(sync(*blocks), unlucky)
     assert len(boundaries(unlucky)) > 2
@@ -340,13 +340,13 @@ def test_a_moving_point_is_sampled_on_its_way() -> None:
     animation = play(sync(block("A", "0", "1", moving)), solver)
     samples = [p for p in animation.report.postures if p.origin is Origin.PATH]
     assert len(samples) > 1
-    assert all(0 < d.phase < 1 for p in samples for d in p.tasks)
+    assert all(0 < d.phase < 1 for p in samples for d in p.ik_tasks)
 
 
 def test_a_key_that_ends_one_path_is_solved_first_though_it_lies_on_another() -> None:
     from azee.motion.tasks.flatten import flatten
     from azee.motion.tasks.limbs import Limbs
-    from azee.motion.tasks.timed_task import bind
+    from azee.motion.tasks.schedule import bind
     from azee_solver.binding import Binding
 
     score = sync(
@@ -357,7 +357,7 @@ def test_a_key_that_ends_one_path_is_solved_first_though_it_lies_on_another() ->
         block("WP", ".4", ".5", Transpath(WEAK_TIP, Straight())),
         block("WB", ".9", ".1", Place(WEAK_TIP, RIGHT)),
     )
-    bound = bind(flatten(score), rig(), Binding(rig(), Side.RIGHT), Limbs.of(rig().coordinates))
-    known = travels(bound, Side.RIGHT)
-    assert deferred(known, (k.time for k in bound.timeline.keyframes)) == frozenset()
+    schedule = bind(flatten(score), rig(), Binding(rig(), Side.RIGHT), Limbs.of(rig().coordinates))
+    known = path_motions(schedule, Side.RIGHT)
+    assert boundaries_on_paths(known, schedule) == frozenset()
     assert {F("0.4"), F("0.8")} <= {p.time for p in play(score, Recorder()).report.postures}

@@ -12,7 +12,7 @@ import pytest
 
 from azee.animation import Animation, animate
 from azee.lang.program import load
-from azee.motion.tasks.keying import MODES, Mode
+from azee.motion.tasks.key_selection import MODES, Mode
 from azee.motion.tasks.limbs import Limbs
 from azee.score.score import Group
 from azee_grammar.files import read_source

@@ -1,10 +1,17 @@
-"""Clearing the way: where a movement would lead through the body, it swerves round it.
+"""Collision avoidance: where a movement leads through the body, via points lead it round.
 
 Between keys a limb moves straight in joint space, which may lead a hand through the chest or a
-thumb through a finger. Where capsules overlap on the way, the limbs that carry them, and that
-nothing needs just then, make the smallest detour on which they do not: a change of their
-coordinates that rises and falls smoothly between the two keys (see `swerve`), found by damped
-least squares on all depths along the way at once. Keys and times stay as they are.
+thumb through a finger. There the limbs that carry the overlapping capsules, and that nothing needs
+at that time, get via points (see `ViaPoint`): the smallest offsets of their coordinates with which
+all pairs of capsules keep their distance along the whole way. Keys and times stay as they are.
+
+The offset c, (n,), is found by damped least squares. With d_tp(c) the depth of pair p at sample t,
+a_tp the depth that it may have there, and m = `OFFSET_WEIGHT_M`, it minimises
+
+    Σ_tp max(0, d_tp(c) − a_tp)² + m² |c|²
+
+in Levenberg–Marquardt steps −(JᵀJ + (m² + λ) I)⁻¹ (Jᵀe + m² c), e being the positive parts and J
+their derivatives by c.
 """
 
 from __future__ import annotations
@@ -19,160 +26,167 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.spline import minimum_jerk
-from azee.motion.curves.capsule_overlap import Overlaps
+from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.movement import Movement
-from azee.motion.curves.via_points import Swerve
-from azee.motion.tasks.limbs import LINKS
-from azee.motion.tasks.spans import Spans
-from azee.motion.tasks.timed_task import BoundScore
+from azee.motion.curves.via_points import ViaPoint
+from azee.motion.tasks.interval_index import IntervalIndex
+from azee.motion.tasks.limbs import CARRIERS
+from azee.motion.tasks.schedule import TaskSchedule
 from azee.score.interval import Interval
 from azee_solver.constraint import Constraint
 from azee_solver.evaluate import Evaluator
 
 Array = NDArray[np.float64]
 
-LEFT = 0.25
-"""Share of the wanted distance that may be missing in the end."""
-SEEN = 0.3
-"""Pairs are in the way when nearer than this share of the distance that ways keep."""
-LEAST_M = 0.002
-"""What comes nearer by no more than this than it is at an end of the way is let be."""
-NEAR_M = 0.025
-"""Pairs farther apart than this at the start of a detour do not bear on it."""
-ABOUT_S = Fraction(1, 2)
-"""A touch that is meant so near in time is meant on the way to it and from it."""
-STEP_S = 1 / 50
-CHUNK = 240
-MOST_SAMPLES = 20
-STEPS, STRIDE_RAD = 40, 0.15
-DAMPING = 0.03
 PASSES = 4
-HASTY_S, UNHURRIED_S, LEAST_ROOM = 0.15, 0.45, 0.1
-"""A wide berth in a short time is a jerk: ways that long and shorter are only just clear."""
+"""How often the movement is searched for collisions: an offset may cause another one."""
+SAMPLE_S = 1 / 50
+"""Time between the postures in which collisions are looked for."""
+SAMPLES_AT_ONCE = 240
+TRIGGER_SHARE = 0.3
+"""Pairs collide when nearer than this share of their clearance."""
+LEAST_APPROACH_M = 0.002
+"""A pair that comes nearer than at the ends of its way by no more than this is left alone."""
+TOUCH_WINDOW_S = Fraction(1, 2)
+"""A touch that the score asks for is no collision this long before and after."""
+
+FEWEST_SAMPLES, MOST_SAMPLES = 8, 20
+"""Samples on a way for which an offset is sought, its ends not counted."""
+CONSIDERED_M = 0.025
+"""Pairs that are farther apart all along the way are not considered."""
+SHORT_S, LONG_S, LEAST_CLEARANCE_SHARE = 0.15, 0.45, 0.1
+"""Ways of `LONG_S` keep the whole clearance, ways of `SHORT_S` this share of it, since a wide
+offset in a short time is a jerk."""
 TAPER = 0.35
-"""Share of the way from an end in which what is near there comes apart."""
-BETTER = 0.7
-"""A detour is made if it leaves at most this share of the deepest overlap."""
-WEIGHT_M = 0.015
-"""A detour of one radian weighs as much as this overlap in one posture."""
+"""Share of the way over which pairs that are near at its end reach their clearance."""
+ALLOWED_SHORTFALL = 0.25
+"""The search ends when no pair lacks more than this share of the least clearance."""
+WORTHWHILE = 0.7
+"""An offset is used if it leaves at most this share of the largest shortfall."""
+MAX_ITERATIONS, MAX_STEP_RAD = 40, 0.15
+DAMPING = 0.03
+OFFSET_WEIGHT_M = 0.015
+"""An offset of one radian costs as much as this overlap in one sample."""
 
 
-_Gaps: TypeAlias = tuple[tuple[str, float, float], ...]
+_FreeLimbs: TypeAlias = tuple[tuple[str, float, float], ...]
 """Limbs that nothing needs, each from when to when."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Clearing:
-    """What clears the ways of one movement.
+class CollisionAvoidance:
+    """Adds via points where a movement leads through the body.
 
-    holders: limbs that something needs, by when.
+    limbs_in_use: limbs that something needs, by when.
     """
 
     evaluator: Evaluator
-    score: BoundScore
-    holders: Spans[frozenset[str]]
-    overlaps: Overlaps
+    schedule: TaskSchedule
+    limbs_in_use: IntervalIndex[frozenset[str]]
+    overlaps: CapsuleOverlaps
 
-    @property
-    def _seen(self) -> Array:
-        """Depth from which on pairs are in the way, (P,) metres."""
-        clear = self.overlaps.clear_m
-        return np.where(clear > LEAST_M, -SEEN * clear, LEAST_M / 2)
-
-    def cleared(self, movement: Movement) -> Movement:
-        """Return a movement with detours where there is something in its way."""
-        given_up: set[_Gaps] = set()
+    def avoid_collisions(self, movement: Movement) -> Movement:
+        """Return a movement with via points where limbs that are free could avoid a collision."""
+        unsuccessful: set[_FreeLimbs] = set()
         for _ in range(PASSES):
-            ways = _joined(self._obstructed(movement))
+            collisions = _merged(self._collisions(movement))
             added = []
-            for gaps, (first, last) in ways.items():
-                if gaps in given_up:
+            for free, (first, last) in collisions.items():
+                if free in unsuccessful:
                     continue
-                found = self._detour(movement, gaps, (first + last) / 2)
+                found = self._via_points(movement, free, (first + last) / 2)
                 if not found:
-                    given_up.add(gaps)
+                    unsuccessful.add(free)
                 added += found
             if not added:
                 break
-            movement = replace(movement, swerves=(*movement.swerves, *added))
+            movement = replace(movement, via_points=(*movement.via_points, *added))
         return movement
 
-    def meant(self, first_s: float, last_s: float) -> list[Constraint]:
-        """Constraints in force about some time: touches that they mean are no obstacles."""
+    def intended_touches(self, first_s: float, last_s: float) -> list[Constraint]:
+        """Constraints in force around some time: the touches they ask for are no collisions."""
         span = Interval(
-            Fraction(first_s).limit_denominator(10**6) - ABOUT_S,
-            Fraction(last_s).limit_denominator(10**6) + ABOUT_S,
+            Fraction(first_s).limit_denominator(10**6) - TOUCH_WINDOW_S,
+            Fraction(last_s).limit_denominator(10**6) + TOUCH_WINDOW_S,
         )
-        return [b.constraint for b in self.score.in_force.meeting(span)]
+        return [t.constraint for t in self.schedule.in_force.overlapping(span)]
 
-    def _obstructed(self, movement: Movement) -> dict[_Gaps, tuple[float, float]]:
-        """Return who could swerve for what is in the way, and from when to when it is."""
-        times = np.arange(movement.start_s - STEP_S, movement.end_s + STEP_S, STEP_S)
-        out: dict[_Gaps, tuple[float, float]] = {}
-        for start in range(0, len(times), CHUNK):
-            part = times[start : start + CHUNK]
-            for pair, rows in self._touching(movement.sample(part), part).items():
+    def _collisions(self, movement: Movement) -> dict[_FreeLimbs, tuple[float, float]]:
+        """Return the limbs that could avoid collisions, and from when to when these last."""
+        times = np.arange(movement.start_s - SAMPLE_S, movement.end_s + SAMPLE_S, SAMPLE_S)
+        out: dict[_FreeLimbs, tuple[float, float]] = {}
+        for start in range(0, len(times), SAMPLES_AT_ONCE):
+            part = times[start : start + SAMPLES_AT_ONCE]
+            for pair, rows in self._colliding_pairs(movement.sample(part), part).items():
                 for run in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1):
                     first, last = float(part[run[0]]), float(part[run[-1]])
-                    gaps = self._gaps(movement, (first + last) / 2, pair)
-                    if gaps:
-                        before = out.get(gaps, (first, last))
-                        out[gaps] = (min(first, before[0]), max(last, before[1]))
+                    free = self._free_limbs(movement, (first + last) / 2, pair)
+                    if free:
+                        before = out.get(free, (first, last))
+                        out[free] = (min(first, before[0]), max(last, before[1]))
         return out
 
-    def _touching(self, q: Array, times: Array) -> dict[int, NDArray[np.int64]]:
-        """Return pairs that overlap in postures though they may not, and the rows where they do."""
+    def _colliding_pairs(self, q: Array, times: Array) -> dict[int, NDArray[np.int64]]:
+        """Return the pairs that collide in moving postures, and the rows in which they do."""
+        clearance = self.overlaps.clearance_m
+        trigger = np.where(
+            clearance > LEAST_APPROACH_M, -TRIGGER_SHARE * clearance, LEAST_APPROACH_M / 2
+        )
         found: dict[int, list[int]] = {}
         moving = np.flatnonzero(np.any(np.diff(q, axis=0, prepend=q[:1]) != 0.0, axis=1))
         for rows in np.array_split(moving, max(1, len(moving) // 15)):
             if not len(rows):
                 continue
-            reach = self.overlaps.reach(self.meant(times[rows[0]], times[rows[-1]]))
-            depth = self.overlaps.depth(q[rows], reach)
-            for t, p in zip(*np.nonzero(depth > self._seen), strict=True):
+            touches = self.intended_touches(times[rows[0]], times[rows[-1]])
+            depths = self.overlaps.depths(q[rows], self.overlaps.axis_distances(touches))
+            for t, p in zip(*np.nonzero(depths > trigger), strict=True):
                 found.setdefault(int(p), []).append(int(rows[t]))
         return {pair: np.array(rows, dtype=np.int64) for pair, rows in found.items()}
 
-    def _detour(self, movement: Movement, gaps: _Gaps, peak: float) -> list[Swerve]:
-        """Return the smallest detour of free limbs that parts what overlaps; none if none."""
-        base = [
-            Swerve(
+    def _via_points(self, movement: Movement, free: _FreeLimbs, peak_s: float) -> list[ViaPoint]:
+        """Return via points of free limbs that avoid their collisions; none if there are none."""
+        zero = [
+            ViaPoint(
                 movement.limbs.members[limb],
                 np.zeros(len(movement.limbs.members[limb])),
-                a, b, float(np.clip((peak - a) / (b - a), 0.0, 1.0)),
+                a, b, float(np.clip((peak_s - a) / (b - a), 0.0, 1.0)),
             )
-            for limb, a, b in gaps
+            for limb, a, b in free
         ]  # fmt: skip
-        start, end = min(s.start_s for s in base), max(s.end_s for s in base)
-        count = int(np.clip((end - start) / STEP_S, 8, MOST_SAMPLES))
+        start, end = min(v.start_s for v in zero), max(v.end_s for v in zero)
+        count = int(np.clip((end - start) / SAMPLE_S, FEWEST_SAMPLES, MOST_SAMPLES))
         times = np.linspace(start, end, count + 2)
-        search = _Search(
+        time_share = (end - start - SHORT_S) / (LONG_S - SHORT_S)
+        search = _OffsetSearch(
             movement.sample(times),
-            np.concatenate([swerve.members for swerve in base]),
-            np.hstack([np.outer(s.share(times), np.ones(len(s.members))) for s in base]),
+            np.concatenate([v.members for v in zero]),
+            np.hstack([np.outer(v.weight(times), np.ones(len(v.members))) for v in zero]),
             self.overlaps,
-            self.overlaps.reach(self.meant(start, end)),
-            float(np.clip((end - start - HASTY_S) / (UNHURRIED_S - HASTY_S), LEAST_ROOM, 1.0)),
+            self.overlaps.axis_distances(self.intended_touches(start, end)),
+            float(np.clip(time_share, LEAST_CLEARANCE_SHARE, 1.0)),
             movement.coordinates.lower,
             movement.coordinates.upper,
         )
-        change = search.least()
-        if change is None:
+        offset = search.smallest_offset()
+        if offset is None:
             return []
-        ends = np.cumsum([len(swerve.members) for swerve in base])[:-1]
-        parts = np.split(change, ends)
-        return [replace(s, change=part) for s, part in zip(base, parts, strict=True)]
+        ends = np.cumsum([len(v.members) for v in zero])[:-1]
+        parts = np.split(offset, ends)
+        return [replace(v, offset=part) for v, part in zip(zero, parts, strict=True)]
 
-    def _gaps(self, movement: Movement, time: float, pair: int) -> _Gaps:
-        """Return limbs that may swerve to part a pair, each with its free time about an instant."""
-        names = movement.limbs.touching(self.overlaps.moved_by(pair)) - {*LINKS, "eyes"}
+    def _free_limbs(self, movement: Movement, time: float, pair: int) -> _FreeLimbs:
+        """Return the limbs that may avoid a pair's collision, each with its free time around it.
+
+        Arms rather than fingers; never trunk, head or eyes.
+        """
+        names = movement.limbs.touching(self.overlaps.moved_by(pair)) - {*CARRIERS, "eyes"}
         arms = {n for n in names if n.startswith("arm_")}
-        found = ((limb, self._free(movement, limb, time)) for limb in sorted(arms or names))
-        return tuple((limb, *gap) for limb, gap in found if gap is not None)
+        found = ((limb, self._free_time(movement, limb, time)) for limb in sorted(arms or names))
+        return tuple((limb, *span) for limb, span in found if span is not None)
 
-    def _free(self, movement: Movement, limb: str, time: float) -> tuple[float, float] | None:
-        """Return the time about an instant between two keys in which nothing needs a limb."""
-        keys = [k.time_s for k in movement.tracks[limb].keys]
+    def _free_time(self, movement: Movement, limb: str, time: float) -> tuple[float, float] | None:
+        """Return the time around an instant, between two keys, in which nothing needs a limb."""
+        keys = [k.time_s for k in movement.curves[limb].keys]
         after = int(np.searchsorted(keys, time))
         if after in (0, len(keys)):
             return None
@@ -180,7 +194,7 @@ class Clearing:
         span = Interval(
             Fraction(start).limit_denominator(10**6), Fraction(end).limit_denominator(10**6)
         )
-        for interval, needed in self.holders.entries_meeting(span):
+        for interval, needed in self.limbs_in_use.overlapping_entries(span):
             if limb in needed:
                 a, b = float(interval.start), float(interval.end)
                 if a < time < b:
@@ -190,82 +204,91 @@ class Clearing:
         return (start, end) if start < time < end else None
 
 
-def _joined(ways: Mapping[_Gaps, tuple[float, float]]) -> dict[_Gaps, tuple[float, float]]:
-    """Join what the same limbs would have to swerve for at the same time."""
-    out: dict[_Gaps, tuple[float, float]] = {}
-    for gaps, (first, last) in ways.items():
-        for other in [o for o in out if {*o} & {*gaps}]:
+def _merged(
+    collisions: Mapping[_FreeLimbs, tuple[float, float]],
+) -> dict[_FreeLimbs, tuple[float, float]]:
+    """Merge collisions that share a free limb: one offset must avoid all of them."""
+    out: dict[_FreeLimbs, tuple[float, float]] = {}
+    for free, (first, last) in collisions.items():
+        for other in [o for o in out if {*o} & {*free}]:
             before = out.pop(other)
             first, last = min(first, before[0]), max(last, before[1])
-            gaps = tuple(sorted({*gaps, *other}))
-        out[gaps] = first, last
+            free = tuple(sorted({*free, *other}))
+        out[free] = first, last
     return out
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Search:
-    """Damped least squares for the smallest change that parts all pairs along a way.
+class _OffsetSearch:
+    """Damped least squares for the smallest offset with which all pairs keep their distance.
 
-    q: (T, V) the way as it is. members: (n,) coordinates that change. shares: (T, n) how much of
-    its change each has made. room: share of the wanted distance that there is the time for. What
-    is near at an end of the way may be so near beside it.
+    q: (T, V) samples of the way. members: (n,) coordinates to offset. weights: (T, n) share of the
+    offset at each sample. axis_distances: (P,) metres. clearance_share: how much of the clearance
+    to keep, as there is time for it. lower, upper: (V,) limits.
     """
 
     q: Array
     members: NDArray[np.int64]
-    shares: Array
-    overlaps: Overlaps
-    reach: Array
-    room: float
+    weights: Array
+    overlaps: CapsuleOverlaps
+    axis_distances: Array
+    clearance_share: float
     lower: Array
     upper: Array
 
-    def least(self) -> Array | None:
-        """Return the change, (n,) radians; none if it would hardly lessen the overlaps."""
-        depth = self.overlaps.depth(self.q, self.reach)
-        nearer = depth.max(axis=0) - np.maximum(depth[0], depth[-1])
-        clear = self.overlaps.clear_m * self.room
-        if not np.any((depth.max(axis=0) > -SEEN * clear) & (nearer > LEAST_M)):
+    def smallest_offset(self) -> Array | None:
+        """Return the offset, (n,) radians; none if it would avoid too little."""
+        depths = self.overlaps.depths(self.q, self.axis_distances)
+        approach = depths.max(axis=0) - np.maximum(depths[0], depths[-1])
+        clearance = self.overlaps.clearance_m * self.clearance_share
+        near = depths.max(axis=0) > -TRIGGER_SHARE * clearance
+        if not np.any(near & (approach > LEAST_APPROACH_M)):
             return None
-        pairs = np.flatnonzero(np.any(depth > -NEAR_M, axis=0))
-        wanted = self._wanted(depth[:, pairs], clear[pairs])
-        enough = LEFT * float(np.min(clear[pairs]))
+        pairs = np.flatnonzero(np.any(depths > -CONSIDERED_M, axis=0))
+        allowed = self._allowed_depths(depths[:, pairs], clearance[pairs])
+        enough = ALLOWED_SHORTFALL * float(np.min(clearance[pairs]))
         c, damping = np.zeros(len(self.members)), DAMPING
-        error, J = self._errors(c, pairs, wanted)
-        began = float(np.max(error))
-        for _ in range(STEPS):
+        error, J = self._errors(c, pairs, allowed)
+        error_before = float(np.max(error))
+        for _ in range(MAX_ITERATIONS):
             if np.max(error) <= enough:
                 break
-            lhs = J.T @ J + (WEIGHT_M**2 + damping) * np.eye(len(c))
-            step = -np.linalg.solve(lhs, J.T @ error + WEIGHT_M**2 * c)
-            step *= min(1.0, STRIDE_RAD / max(1e-9, float(np.max(np.abs(step)))))
-            new, slope = self._errors(c + step, pairs, wanted)
-            if np.sum(new**2) < np.sum(error**2):
-                c, error, J, damping = c + step, new, slope, damping / 3
+            lhs = J.T @ J + (OFFSET_WEIGHT_M**2 + damping) * np.eye(len(c))
+            step = -np.linalg.solve(lhs, J.T @ error + OFFSET_WEIGHT_M**2 * c)
+            step *= min(1.0, MAX_STEP_RAD / max(1e-9, float(np.max(np.abs(step)))))
+            new_error, new_J = self._errors(c + step, pairs, allowed)
+            if np.sum(new_error**2) < np.sum(error**2):
+                c, error, J, damping = c + step, new_error, new_J, damping / 3
             else:
                 damping *= 8
-        return c if float(np.max(error)) < BETTER * began else None
+        return c if float(np.max(error)) < WORTHWHILE * error_before else None
 
-    def _wanted(self, depth: Array, clear: Array) -> Array:
-        """Depths that pairs may have along the way, (T, P) metres."""
-        ends = np.maximum(depth[[0, -1]], -clear)
+    def _allowed_depths(self, depths: Array, clearance: Array) -> Array:
+        """Return the depths that pairs may have along the way, (T, P) metres.
+
+        Minus the clearance; but a pair that is nearer at an end of the way may be so near beside
+        that end, and comes apart by minimum jerk over the share `TAPER` of the way.
+        """
+        ends = np.maximum(depths[[0, -1]], -clearance)
         along = np.linspace(0.0, 1.0, len(self.q))[:, None]
         leaving = 1.0 - minimum_jerk(along / TAPER)
-        coming = 1.0 - minimum_jerk((1.0 - along) / TAPER)
-        near = np.maximum((ends[0] + clear) * leaving, (ends[1] + clear) * coming)
-        return np.asarray(near - clear)
+        arriving = 1.0 - minimum_jerk((1.0 - along) / TAPER)
+        near = np.maximum((ends[0] + clearance) * leaving, (ends[1] + clearance) * arriving)
+        return np.asarray(near - clearance)
 
     def _errors(
-        self, change: Array, pairs: NDArray[np.int64], wanted: Array
+        self, offset: Array, pairs: NDArray[np.int64], allowed: Array
     ) -> tuple[Array, Array]:
-        """Depths beyond what is wanted after a change, (T · P,) metres, and slopes, (T · P, n)."""
-        asked = self.q.copy()
-        asked[:, self.members] += self.shares * change
-        q = np.clip(asked, self.lower, self.upper)
-        least = float(wanted.min(initial=math.inf))
-        depth, slope = self.overlaps.slopes(q, self.reach, pairs, self.members, least)
-        beyond = depth - wanted
-        # A coordinate at its limit does not move, what is far enough does not count.
-        moving = (asked == q)[:, None, self.members] & (beyond > 0.0)[..., None]
-        J = slope * self.shares[:, None, :] * moving
+        """Return depths beyond the allowed ones, (T · P,) metres, and derivatives, (T · P, n)."""
+        wanted = self.q.copy()
+        wanted[:, self.members] += self.weights * offset
+        q = np.clip(wanted, self.lower, self.upper)
+        least = float(allowed.min(initial=math.inf))
+        depths, gradients = self.overlaps.depths_and_gradients(
+            q, self.axis_distances, pairs, self.members, least
+        )
+        beyond = depths - allowed
+        # A coordinate at its limit does not move, and a pair that is far enough does not count.
+        counts = (wanted == q)[:, None, self.members] & (beyond > 0.0)[..., None]
+        J = gradients * self.weights[:, None, :] * counts
         return np.maximum(beyond, 0.0).ravel(), J.reshape(beyond.size, -1)

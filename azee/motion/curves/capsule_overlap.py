@@ -1,7 +1,7 @@
-"""How deep capsules of the body overlap along a movement: what clearing the way works on.
+"""How deep capsules of the body overlap in the postures of a movement.
 
-Capsules hold the skin and can be asked for thousands of postures a second; the skin itself is the
-judge in the report.
+Collision avoidance works on capsules, which enclose nearly all of the skin: their overlaps are
+computed for thousands of postures a second. The report measures on the skin itself.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ from azee_solver.kinematics import Parting
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-CLEAR_M, FINGERS_CLEAR_M = 0.01, 0.0005
-"""Fingers of one hand lie side by side; everything else keeps a little away."""
+CLEARANCE_M, FINGER_CLEARANCE_M = 0.01, 0.0005
+"""Distance that avoidance keeps: fingers of one hand may lie side by side, other parts not."""
 
 
-class Overlaps:
-    """Overlaps of the pairs of capsules of one body that must stay apart.
+class CapsuleOverlaps:
+    """The pairs of capsules of one body that must stay apart, and how deep they overlap.
 
-    pairs: (P, 2). nodes: (P, 2) the nodes that carry them. clear_m: (P,) how far apart a way that
-    is free to choose keeps them: capsules do not hold all of the skin. same_hand: (P,) which are
-    fingers of one hand.
+    pairs: (P, 2). nodes: (P, 2) the nodes that carry them. clearance_m: (P,) distance that
+    avoidance keeps between them, since capsules do not enclose all of the skin. same_hand: (P,)
+    which are fingers of one hand.
     """
 
     def __init__(self, evaluator: Evaluator) -> None:
@@ -45,8 +45,8 @@ class Overlaps:
         others[hands] = False
         arms = (self._anatomy.relative(*self.nodes.T) & others).any(axis=1)
         self.same_hand: NDArray[np.bool_] = np.logical_not(arms)
-        self.clear_m: Array = np.where(arms, CLEAR_M, FINGERS_CLEAR_M)
-        self._reach = lru_cache(maxsize=64)(self._reach_of)
+        self.clearance_m: Array = np.where(arms, CLEARANCE_M, FINGER_CLEARANCE_M)
+        self._axis_distances = lru_cache(maxsize=64)(self._axis_distances_with)
 
     def moved_by(self, pair: int) -> list[int]:
         """Coordinates that change the distance of a pair."""
@@ -70,33 +70,40 @@ class Overlaps:
         head = self._anatomy.is_above(self._rig.bones["neck"].origin_node, node)
         return "head" if head else "trunk"
 
-    def reach(self, constraints: Iterable[Constraint]) -> Array:
-        """How near the axes of pairs may come, (P,), where constraints mean some to touch."""
-        return self._reach(tuple(dict.fromkeys(c for c in constraints if isinstance(c, Place))))
+    def axis_distances(self, constraints: Iterable[Constraint]) -> Array:
+        """Return how near the axes of pairs may come, (P,) metres.
 
-    def _reach_of(self, places: tuple[Constraint, ...]) -> Array:
+        That is the sum of their radii and a margin; less where a placement wants a touch, by as
+        much as the capsules stand out beyond the skin there.
+
+        Args: constraints: those in force; only placements matter.
+        """
+        places = dict.fromkeys(c for c in constraints if isinstance(c, Place))
+        return self._axis_distances(tuple(places))
+
+    def _axis_distances_with(self, places: tuple[Constraint, ...]) -> Array:
         return Obstacles(self._evaluator.binding, self._anatomy, places).reach
 
-    def depth(self, q: Array, reach: Array, pairs: Ints | None = None) -> Array:
+    def depths(self, q: Array, axis_distances: Array, pairs: Ints | None = None) -> Array:
         """Return how deep pairs overlap in postures, (T, P) metres; negative if they are apart.
 
-        Args: q: (T, V). reach: all pairs', as `reach` gives it. pairs: indices of those to look
-            at, all by default.
+        Args: q: (T, V). axis_distances: (P,) of all pairs. pairs: indices of some, all by default.
         """
-        return self.slopes(q, reach, pairs, np.empty(0, dtype=np.int64))[0]
+        nothing = np.empty(0, dtype=np.int64)
+        return self.depths_and_gradients(q, axis_distances, pairs, nothing)[0]
 
-    def slopes(
+    def depths_and_gradients(
         self,
         q: Array,
-        reach: Array,
+        axis_distances: Array,
         pairs: Ints | None,
         coordinates: Ints,
         deeper_m: float = -math.inf,
     ) -> tuple[Array, Array]:
-        """Return depths, and how they change with some coordinates, (T, P, n) metres a radian.
+        """Return depths, and their derivatives by some coordinates, (T, P, n) metres a radian.
 
-        Args: deeper_m: of pairs that overlap no deeper slopes are left at zero.
+        Args: deeper_m: derivatives are left at zero where a pair overlaps no deeper than this.
         """
         chosen = np.arange(len(self.pairs)) if pairs is None else pairs
         parting = Parting(self._rig, self.pairs[chosen])
-        return parting.depths(q, reach[chosen], coordinates, deeper_m)
+        return parting.depths(q, axis_distances[chosen], coordinates, deeper_m)

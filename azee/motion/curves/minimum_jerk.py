@@ -1,4 +1,4 @@
-"""The smoothest curve through samples in time, at rest at both ends."""
+"""The curve of minimum jerk through samples in time, still at both ends."""
 
 from __future__ import annotations
 
@@ -7,18 +7,21 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-BULGE = 0.3
-"""A curve may leave the values of the keys around it by this share of how far they differ."""
+OVERSHOOT = 0.3
+"""How far a curve may leave the range of the nearest four samples, as a share of that range."""
 
 
-def through(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:
-    """Return the curve of minimum jerk through samples in time, at rest in the first and the last.
+def curve_through(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:
+    """Return the curve of minimum jerk through samples in time, still at the first and the last.
 
-    Among all curves through the samples whose velocity and acceleration are zero at both ends it
-    has the least integral of squared jerk (Flash and Hogan 1985, there with one via-point). Its
-    pieces are of the fifth degree and join with four continuous derivatives; between two samples
-    it is `minimum_jerk`. Where samples lie so that it would swing out far beyond them, a
-    coordinate gets the curve through them that does not, and has two continuous derivatives.
+    Among all curves y through the samples whose velocity and acceleration are zero at both ends it
+    has the least ∫ |y‴|² dt (Flash and Hogan 1985, there with one via point). Its pieces are of
+    the fifth degree and join with four continuous derivatives. Through two samples a and b, a time
+    T apart, it is a + (b − a)(10τ³ − 15τ⁴ + 6τ⁵) with τ = t/T.
+
+    A coordinate that would overshoot its samples by more than `OVERSHOOT` gets the velocities of
+    Fritsch and Butland (1984) and no acceleration at the inner knots instead; it then has two
+    continuous derivatives. This happens where two samples lie close to a stop.
 
     Args: knots: (n,) increasing seconds, n ≥ 2. values: (n, d). at: (m,) inside the knots.
     Returns: (m, d).
@@ -28,18 +31,19 @@ def through(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:
     u: Array = np.asarray(at, dtype=np.float64)
     velocity, acceleration = np.zeros_like(y), np.zeros_like(y)
     if len(x) > 2:
-        velocity[1:-1], acceleration[1:-1] = _smoothest(x, y)
-        wild = _swings_out(x, y, velocity, acceleration)
-        velocity[:, wild] = _modest(x, y[:, wild])
-        acceleration[:, wild] = 0.0
+        velocity[1:-1], acceleration[1:-1] = _minimum_jerk_derivatives(x, y)
+        overshooting = _overshoots(x, y, velocity, acceleration)
+        velocity[:, overshooting] = _monotone_velocities(x, y[:, overshooting])
+        acceleration[:, overshooting] = 0.0
     k = np.clip(np.searchsorted(x, u, side="right") - 1, 0, len(x) - 2)
     return _quintic(x, y, velocity, acceleration, k, u)
 
 
-def _smoothest(x: Array, y: Array) -> tuple[Array, Array]:
-    """Velocities and accelerations (n − 2, d) at the inner knots of least jerk.
+def _minimum_jerk_derivatives(x: Array, y: Array) -> tuple[Array, Array]:
+    """Velocities and accelerations of the minimum-jerk curve at its inner knots, (n − 2, d) each.
 
-    The third and fourth derivatives of the two pieces that meet at a knot are equal there.
+    They solve 2(n − 2) linear equations per coordinate: at each inner knot the third and the
+    fourth derivatives of the two quintic pieces that meet there are equal.
     """
     h, n = np.diff(x), len(x) - 2
     rise = np.diff(y, axis=0)
@@ -60,20 +64,24 @@ def _smoothest(x: Array, y: Array) -> tuple[Array, Array]:
     return found[0::2], found[1::2]
 
 
-def _swings_out(x: Array, y: Array, velocity: Array, acceleration: Array) -> NDArray[np.bool_]:
-    """Which coordinates leave the values of the keys around them by more than `BULGE`, (d,)."""
+def _overshoots(x: Array, y: Array, velocity: Array, acceleration: Array) -> NDArray[np.bool_]:
+    """Which coordinates leave the range of the samples around them by too much, (d,)."""
     parts = np.linspace(0.1, 0.9, 9)
     k = np.repeat(np.arange(len(x) - 1), len(parts))
     u = x[k] + np.tile(parts, len(x) - 1) * np.diff(x)[k]
     curve = _quintic(x, y, velocity, acceleration, k, u)
     around = np.clip(k[:, None] + np.arange(-1, 3), 0, len(x) - 1)
     low, high = y[around].min(axis=1), y[around].max(axis=1)
-    room = BULGE * (high - low)
-    return np.asarray(np.any((curve < low - room) | (curve > high + room), axis=0))
+    allowed = OVERSHOOT * (high - low)
+    return np.asarray(np.any((curve < low - allowed) | (curve > high + allowed), axis=0))
 
 
-def _modest(x: Array, y: Array) -> Array:
-    """Velocities (n, d) with which a curve stays between its samples (Fritsch and Butland 1984)."""
+def _monotone_velocities(x: Array, y: Array) -> Array:
+    """Velocities (n, d) of a curve that stays between its samples (Fritsch and Butland 1984).
+
+    With the slopes a, b and lengths g, h of the pieces before and after a knot:
+    3(g + h) / ((g + 2h)/a + (2g + h)/b) where a and b have one sign, else 0.
+    """
     h = np.diff(x)[:, None]
     slopes = np.diff(y, axis=0) / h
     out = np.zeros_like(y)

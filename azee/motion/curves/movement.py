@@ -1,19 +1,19 @@
-"""The whole body's movement: every limb's track through the key postures that key it."""
+"""The whole body's movement: a curve for every limb, and via points added to them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.curves.limb_curves import LimbKey, LimbTrack, track, unhurried_s
-from azee.motion.curves.via_points import Swerve
+from azee.motion.curves.limb_curves import LimbCurve, LimbKey, calm_transition_s, limb_curve
+from azee.motion.curves.via_points import ViaPoint
+from azee.motion.tasks.interval_index import IntervalIndex
+from azee.motion.tasks.key_posture import KeyPosture
 from azee.motion.tasks.limbs import Limbs, channel_of_limb
-from azee.motion.tasks.posture import KeyPosture
-from azee.motion.tasks.spans import Spans
 from azee.score.interval import Interval
 from azee_rig.coordinates import Coordinates
 
@@ -22,81 +22,86 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Movement:
-    """Tracks of all limbs, by name, on the score's time line, and detours laid on them."""
+    """Curves of all limbs, by name, on the score's time line, and the via points added to them."""
 
     coordinates: Coordinates
     limbs: Limbs
-    tracks: Mapping[str, LimbTrack]
-    swerves: tuple[Swerve, ...] = ()
+    curves: Mapping[str, LimbCurve]
+    via_points: tuple[ViaPoint, ...] = ()
 
     def sample(self, times_s: Array) -> Array:
         """Return coordinates at increasing times, (T, V) radians, inside the limits."""
         out = np.empty((len(times_s), len(self.coordinates)))
         for limb, members in self.limbs.members.items():
-            out[:, members] = self.tracks[limb].sample(times_s)
-        for swerve in self.swerves:
-            swerve.add_to(out, times_s)
+            out[:, members] = self.curves[limb].sample(times_s)
+        for via_point in self.via_points:
+            via_point.add_to(out, times_s)
         return np.clip(out, self.coordinates.lower, self.coordinates.upper, out=out)
 
     @property
     def start_s(self) -> float:
-        """When the first limb leaves its rest."""
-        return min((t.start_s for t in self.tracks.values() if t.keys), default=0.0)
+        """When the first limb leaves neutral."""
+        return min((c.start_s for c in self.curves.values() if c.keys), default=0.0)
 
     @property
     def end_s(self) -> float:
-        """When the last limb has come to rest."""
-        return max((t.end_s for t in self.tracks.values() if t.keys), default=0.0)
+        """When the last limb is back at neutral."""
+        return max((c.end_s for c in self.curves.values() if c.keys), default=0.0)
 
 
-def movement(
-    postures: Sequence[KeyPosture],
-    holders: Spans[frozenset[str]],
-    coordinates: Coordinates,
-    limbs: Limbs,
-    *,
-    together: bool = True,
-) -> Movement:
-    """Join key postures, in order of time, limb by limb.
+@dataclass(frozen=True, slots=True, eq=False)
+class Interpolation:
+    """Joins key postures to a movement, limb by limb.
 
-    Args: holders: limbs that something needs, by when. together: an arm and its fingers come from
-        rest and go back in the same time; else each limb takes its own.
+    limbs_in_use: limbs that something needs, by when. hands_together: an arm and its fingers leave
+    neutral and return to it in the same time; otherwise each limb takes its own.
     """
-    tracks = {}
-    for limb, members in limbs.members.items():
-        own = [p for p in postures if limb in p.limbs]
-        held = [
-            any(
-                a.holds(limb, needed) or b.holds(limb, needed)
-                for needed in holders.all_through(Interval(a.time, b.time))
-            )
-            for a, b in pairwise(own)
-        ]
-        ways = [_way_s(p, limb, coordinates, limbs) if together else None for p in own]
-        keys = [
-            LimbKey(float(p.time), p.coordinates[members], limb in p.passing, h, way)
-            for p, h, way in zip(own, [*held, False], ways, strict=False)
-        ]
-        tracks[limb] = track(keys, coordinates.idle[members])
-    return Movement(coordinates, limbs, tracks)
 
+    coordinates: Coordinates
+    limbs: Limbs
+    limbs_in_use: IntervalIndex[frozenset[str]]
+    hands_together: bool = True
 
-def _way_s(posture: KeyPosture, limb: str, coordinates: Coordinates, limbs: Limbs) -> float:
-    """Time from or to rest that a limb takes together with what moves with it.
+    def through(self, postures: Iterable[KeyPosture]) -> Movement:
+        """Return the movement through key postures: each limb goes through those that key it."""
+        ordered = sorted(postures, key=lambda p: p.time)
+        curves = {}
+        for limb, members in self.limbs.members.items():
+            own = [p for p in ordered if limb in p.limbs]
+            held = [self._is_held(limb, a, b) for a, b in pairwise(own)]
+            keys = [
+                LimbKey(
+                    float(p.time), p.coordinates[members], limb in p.passing, h,
+                    self._neutral_s(p, limb) if self.hands_together else None,
+                )
+                for p, h in zip(own, [*held, False], strict=False)
+            ]  # fmt: skip
+            curves[limb] = limb_curve(keys, self.coordinates.idle[members])
+        return Movement(self.coordinates, self.limbs, curves)
 
-    Fingers form a handshape while the arm brings the hand there.
-    """
-    side = channel_of_limb(limb) == "hands" and limb[-2:]
-    q, idle = posture.coordinates, coordinates.idle
-    found = [
-        unhurried_s(q[members], idle[members])
-        for other, members in limbs.members.items()
-        if other == limb
-        or (
-            side
-            and channel_of_limb(other) == "hands"
-            and other[-2:] == side
-            and other in posture.limbs
+    def _is_held(self, limb: str, a: KeyPosture, b: KeyPosture) -> bool:
+        """Whether something needs a limb all the time from one of its keys to the next."""
+        return any(
+            a.holds(limb, needed) or b.holds(limb, needed)
+            for needed in self.limbs_in_use.covering(Interval(a.time, b.time))
         )
-    ]
-    return max(found)
+
+    def _neutral_s(self, posture: KeyPosture, limb: str) -> float:
+        """Time from or to neutral that a limb takes together with what moves with it.
+
+        The fingers form a handshape while the arm brings the hand there: all of a hand's limbs
+        that the posture keys take as long as the slowest of them.
+        """
+        q, neutral = posture.coordinates, self.coordinates.idle
+        hand = channel_of_limb(limb) == "hands" and limb[-2:]
+        return max(
+            calm_transition_s(q[members], neutral[members])
+            for other, members in self.limbs.members.items()
+            if other == limb
+            or (
+                hand
+                and channel_of_limb(other) == "hands"
+                and other[-2:] == hand
+                and other in posture.limbs
+            )
+        )

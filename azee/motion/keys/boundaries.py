@@ -1,155 +1,179 @@
 """Key postures at the boundaries of blocks, solved in order of time.
 
-Where a block ends at the instant another begins, one posture may serve both, and then it does.
-Two different postures cannot share an instant: a block holds on [start, end), so the instant is
-the opening block's, exactly on its time, and the closing block gives way before its end, for as
-long as the movement between the two needs but never for more than half its own length. The report
-tells of it.
+Where a block ends at the instant at which another begins, one posture serves both if it can. Two
+different postures cannot share an instant: a block holds on [start, end), so the instant belongs
+to the block that begins, exactly on its time. The block that ends has its last key earlier, by the
+time that the transition between the two postures needs, but by no more than half its own length.
+The report names such early ends.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from azee.motion.curves.limb_curves import transition_s
-from azee.motion.keys.posture_solver import Poser, tasks_of
-from azee.motion.tasks.conflict import contradict
-from azee.motion.tasks.limbs import LINKS
-from azee.motion.tasks.posture import KeyPosture, Origin
-from azee.motion.tasks.timed_task import Bound, BoundScore, GivingWay, limbs_asked
+from azee.motion.keys.key_posture_solver import KeyPostureSolver
+from azee.motion.keys.residual_monitor import in_force
+from azee.motion.tasks.contradiction import contradict
+from azee.motion.tasks.key_posture import KeyPosture, Origin
+from azee.motion.tasks.limbs import CARRIERS
+from azee.motion.tasks.schedule import TaskSchedule
+from azee.motion.tasks.timed_task import (
+    EarlyEnd,
+    TimedTask,
+    ik_tasks_at,
+    limbs_moved,
+    limbs_used,
+)
 from azee.score.interval import Interval
 from azee_solver.binding import Binding
+from azee_solver.constraint import Constraint
 
-PREPARE_S = Fraction(3, 20)
-"""Head and trunk get ready for what begins within this time."""
-SHORTEST_GIVING_WAY = Fraction(1, 12)
+LOOK_AHEAD_S = Fraction(3, 20)
+"""Head and trunk take the posture of what begins within this time."""
+SHORTEST_EARLY_END_S = Fraction(1, 12)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Boundaries:
-    """Solved key postures in order of time, and who gave way, by rank of the requirement."""
+    """Solved key postures in order of time, and the early ends, by rank of the task."""
 
     postures: tuple[KeyPosture, ...]
-    giving_way: dict[int, GivingWay] = field(default_factory=dict)
+    early_ends: dict[int, EarlyEnd]
 
-
-def active(score: BoundScore, time: Fraction, giving: Mapping[int, GivingWay]) -> list[Bound]:
-    """Return requirements in force at an instant, both ends included; what gave way is not."""
-    given = ((b, giving.get(b.requirement.rank)) for b in score.in_force.at(time))
-    return [b for b, to in given if to is None or time <= to.start]
+    @property
+    def unmet(self) -> frozenset[Constraint]:
+        """Constraints that some of the postures do not meet."""
+        answers = (c for p in self.postures for c in p.report.constraints)
+        return frozenset(c.task.constraint for c in answers if not c.met)
 
 
 def solve_boundaries(
-    score: BoundScore, poser: Poser, binding: Binding, deferred: frozenset[Fraction]
+    schedule: TaskSchedule,
+    solver: KeyPostureSolver,
+    binding: Binding,
+    deferred: frozenset[Fraction],
 ) -> Boundaries:
-    """Solve the keyframes of a time line, but for `deferred` ones, which lie inside movements."""
+    """Solve a key posture at every boundary of blocks, but for the deferred ones on paths."""
     postures: list[KeyPosture] = []
-    giving: dict[int, GivingWay] = {}
-    for keyframe in score.timeline.keyframes:
+    early_ends: dict[int, EarlyEnd] = {}
+    for keyframe in schedule.timeline.keyframes:
         time = keyframe.time
-        bounds = active(score, time, giving)
-        if not bounds or time in deferred:
+        tasks = in_force(schedule, time, early_ends)
+        if not tasks or time in deferred:
             continue
-        opening = [b for b in bounds if b.requirement.starts_or_runs(time)]
-        closing = [b for b in bounds if not b.requirement.starts_or_runs(time)]
-        posture = _prepared(time, opening, closing, score, poser)
+        opening = [t for t in tasks if t.requirement.starts_or_runs(time)]
+        closing = [t for t in tasks if not t.requirement.starts_or_runs(time)]
+        posture = _looking_ahead(time, opening, closing, schedule, solver)
         if posture is None:
-            posture = _shared(time, opening, closing, poser, binding)
+            posture = _shared(time, opening, closing, solver, binding)
         if posture is None:
-            postures += _apart(time, opening, closing, poser, giving)
+            postures += _separate(time, opening, closing, solver, early_ends)
         else:
-            postures.append(poser.accept(posture))
-    return Boundaries(tuple(postures), giving)
+            postures.append(solver.accept(posture))
+    return Boundaries(tuple(postures), early_ends)
 
 
-def _prepared(
+def _looking_ahead(
     time: Fraction,
-    opening: Sequence[Bound],
-    closing: Sequence[Bound],
-    score: BoundScore,
-    poser: Poser,
+    opening: Sequence[TimedTask],
+    closing: Sequence[TimedTask],
+    schedule: TaskSchedule,
+    solver: KeyPostureSolver,
 ) -> KeyPosture | None:
-    """Return a posture in which head and trunk are already as blocks want them that begin soon.
+    """Return a posture in which head and trunk are already as the next blocks want them.
 
-    A gaze that bends the head for a tenth of a second, until a raised chin asks for the opposite,
-    is met as well by eyes and neck. None if nothing begins soon on a head or trunk that is asked
-    for now, if that has only just been elsewhere, or if not all can be met together.
+    It spares a movement to and fro: a gaze that would bend the head for .09 s, until a raised chin
+    asks for the opposite, is met as well by eyes and neck (ADR 30).
+
+    None if no task on a head or trunk that is in use begins soon, if that limb has been moved too
+    recently to come from neutral, or if present and next tasks cannot all be met.
     """
-    if poser.keying.flat or closing:
+    if solver.selection.flat or closing:
         return None
-    soon = score.in_force.meeting(Interval(time, time + PREPARE_S))
-    asked = frozenset[str]().union(*(b.limbs for b in opening)) & {*LINKS}
+    carriers = limbs_moved(opening) & {*CARRIERS}
     ahead = [
-        b
-        for b in soon
-        if (start := b.requirement.interval.start) > time
-        and b.limb in LINKS
-        and b.limbs & asked
-        and poser.rest.since(b.limb, time) >= start - time
+        t
+        for t in schedule.in_force.overlapping(Interval(time, time + LOOK_AHEAD_S))
+        if t.interval.start > time
+        and t.limb in CARRIERS
+        and t.limbs & carriers
+        and solver.neutral.since_moved(t.limb, time) >= t.interval.start - time
     ]
     if not ahead:
         return None
-    posture = poser.solve(time, [*opening, *ahead])
-    return replace(posture, bounds=tuple(opening)) if posture.met else None
+    posture = solver.solve(time, [*opening, *ahead])
+    return replace(posture, timed_tasks=tuple(opening)) if posture.met else None
 
 
 def _shared(
     time: Fraction,
-    opening: Sequence[Bound],
-    closing: Sequence[Bound],
-    poser: Poser,
+    opening: Sequence[TimedTask],
+    closing: Sequence[TimedTask],
+    solver: KeyPostureSolver,
     binding: Binding,
 ) -> KeyPosture | None:
-    """Return one posture for both sides of an instant; none if they must part."""
-    starting = [b for b in opening if b.requirement.interval.start == time]
-    if not closing or not starting:
-        return poser.solve(time, [*opening, *closing])
-    if not any(limbs_asked([a]) & limbs_asked([b]) for a in closing for b in starting):
-        return poser.solve(time, [*opening, *closing])
+    """Return one posture for what begins and what ends; none if each needs its own.
+
+    It is shared where no limb is used by both, and where it meets as much as a posture for what
+    begins alone.
+    """
+    starting = [t for t in opening if t.interval.start == time]
+    if not any(a.used_limbs & b.used_limbs for a in closing for b in starting):
+        return solver.solve(time, [*opening, *closing])
     if contradict(closing, starting, binding):
         return None
-    joint = poser.solve(time, [*opening, *closing])
-    if joint.met or joint.reused or len(tasks_of(opening, time)) == len(joint.tasks):
-        return joint
-    return joint if poser.solve(time, opening).misses() >= joint.misses() else None
+    shared = solver.solve(time, [*opening, *closing])
+    if shared.met or shared.reused or len(ik_tasks_at(opening, time)) == len(shared.ik_tasks):
+        return shared
+    return shared if solver.solve(time, opening).unmet_count >= shared.unmet_count else None
 
 
-def _apart(
+def _separate(
     time: Fraction,
-    opening: Sequence[Bound],
-    closing: Sequence[Bound],
-    poser: Poser,
-    giving: dict[int, GivingWay],
+    opening: Sequence[TimedTask],
+    closing: Sequence[TimedTask],
+    solver: KeyPostureSolver,
+    early_ends: dict[int, EarlyEnd],
 ) -> list[KeyPosture]:
-    """Solve the opening side on time and give the closing side an earlier end key."""
-    starting = [b for b in opening if b.requirement.interval.start == time]
-    contested = limbs_asked(starting)
-    yielding = {b.requirement.path for b in closing if limbs_asked([b]) & contested}
-    leaving = [b for b in closing if b.requirement.path in yielding]
-    staying = [b for b in closing if b.requirement.path not in yielding]
-    after = poser.solve(time, [*opening, *staying])
-    going_on = [b for b in [*opening, *staying] if b.requirement.interval.start < time]
-    before = poser.solve(time, [*leaving, *going_on], Origin.EARLY_END, leaving)
-    end = time - _way(before, after, leaving, poser)
-    since = poser.last.time if poser.last is not None else None
+    """Solve what begins on time, and give what ends there an earlier last key.
+
+    All tasks of a block end early if one of them uses a limb that what begins uses.
+    """
+    starting = [t for t in opening if t.interval.start == time]
+    contested = limbs_used(starting)
+    ending_blocks = {t.path for t in closing if t.used_limbs & contested}
+    ending = [t for t in closing if t.path in ending_blocks]
+    staying = [t for t in closing if t.path not in ending_blocks]
+    after = solver.solve(time, [*opening, *staying])
+    lasting = [t for t in [*opening, *staying] if t.interval.start < time]
+    before = solver.solve(time, [*ending, *lasting], Origin.EARLY_END, ending)
+    end = time - _transition_s(before, after, ending, solver)
+    last_time = solver.last.time if solver.last is not None else None
     out: list[KeyPosture] = []
-    if since is None or end > since:
-        out.append(poser.accept(poser.solve(end, [*leaving, *going_on], Origin.EARLY_END, leaving)))
+    if last_time is None or end > last_time:
+        last_key = solver.solve(end, [*ending, *lasting], Origin.EARLY_END, ending)
+        out.append(solver.accept(last_key))
     else:
-        end = since
-    to = starting[0].requirement.path
-    giving.update({b.requirement.rank: GivingWay(end, to) for b in leaving})
-    out.append(poser.accept(after))
+        end = last_time
+    successor = starting[0].path
+    early_ends.update({t.rank: EarlyEnd(end, successor) for t in ending})
+    out.append(solver.accept(after))
     return out
 
 
-def _way(before: KeyPosture, after: KeyPosture, leaving: Sequence[Bound], poser: Poser) -> Fraction:
-    """How long before its end a block gives way."""
-    longest = max(
+def _transition_s(
+    before: KeyPosture, after: KeyPosture, ending: Sequence[TimedTask], solver: KeyPostureSolver
+) -> Fraction:
+    """Time for the transition between two postures: how much earlier a block ends.
+
+    That of its slowest limb, at least `SHORTEST_EARLY_END_S`, at most half the shortest block.
+    """
+    slowest = max(
         transition_s(before.coordinates[members], after.coordinates[members])
-        for members in (poser.limbs.members[limb] for limb in limbs_asked(leaving))
+        for members in (solver.limbs.members[limb] for limb in limbs_used(ending))
     )
-    wanted = max(SHORTEST_GIVING_WAY, Fraction(round(longest * 1000), 1000))
-    return min(wanted, min(b.requirement.interval.duration for b in leaving) / 2)
+    wanted = max(SHORTEST_EARLY_END_S, Fraction(round(slowest * 1000), 1000))
+    return min(wanted, min(t.interval.duration for t in ending) / 2)

@@ -1,4 +1,4 @@
-"""Which limbs have come to rest by an instant."""
+"""Which limbs have returned to the neutral posture by an instant."""
 
 from __future__ import annotations
 
@@ -11,86 +11,94 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.curves.limb_curves import GO_ON_S, transition_s
+from azee.motion.curves.limb_curves import DIRECT_WITHIN_S, transition_s
+from azee.motion.tasks.key_posture import KeyPosture
 from azee.motion.tasks.limbs import TRUNK, Limbs
-from azee.motion.tasks.posture import KeyPosture
-from azee.motion.tasks.timed_task import Bound, limbs_asked
+from azee.motion.tasks.timed_task import TimedTask, limbs_used
 
 Array = NDArray[np.float64]
 
-CARRIERS = frozenset((TRUNK, "head", "eyes"))
-"""Limbs that come back though others read them: a hand at the forehead follows the head."""
+SELF_RETURNING = frozenset((TRUNK, "head", "eyes"))
+"""Limbs that return as soon as no task moves them, though tasks read them: a hand on the forehead
+follows the head back."""
 
 
 @dataclass(slots=True)
-class Rest:
-    """Remembers when limbs were needed, as keyframes are solved in order of time.
+class ReturnToNeutral:
+    """Records when limbs were needed, as key postures are solved in order of time.
 
-    bounds: all that a score requires of postures. idle: (V,) the resting posture.
+    tasks: all tasks of postures of a score. neutral: (V,) the posture to return to.
     """
 
-    bounds: Iterable[Bound]
+    tasks: Iterable[TimedTask]
     limbs: Limbs
-    idle: Array
+    neutral: Array
     _starts: dict[str, list[Fraction]] = field(init=False)
+    """When tasks that move a limb begin, increasing."""
     _needed: dict[str, Fraction] = field(init=False, default_factory=dict)
-    _claimed: dict[str, Fraction] = field(init=False, default_factory=dict)
+    """When a limb was last keyed, moved or read."""
+    _moved: dict[str, Fraction] = field(init=False, default_factory=dict)
+    """When a task last moved a limb."""
 
     def __post_init__(self) -> None:
         self._starts = {name: [] for name in self.limbs.names}
-        for b in self.bounds:
-            for limb in b.limbs:
-                self._starts[limb].append(b.requirement.interval.start)
+        for task in self.tasks:
+            for limb in task.limbs:
+                self._starts[limb].append(task.interval.start)
         for starts in self._starts.values():
             starts.sort()
 
-    def note(self, posture: KeyPosture) -> None:
-        """Remember what a posture needs."""
-        for limb in posture.limbs | limbs_asked(posture.bounds):
+    def record(self, posture: KeyPosture) -> None:
+        """Record what a posture needs."""
+        for limb in posture.limbs | limbs_used(posture.timed_tasks):
             self._needed[limb] = posture.time
-        for b in posture.bounds:
-            for limb in b.limbs:
-                self._claimed[limb] = posture.time
+        for task in posture.timed_tasks:
+            for limb in task.limbs:
+                self._moved[limb] = posture.time
 
-    def since(self, limb: str, time: Fraction) -> float:
-        """How long ago a limb was claimed last; without end if it never was."""
-        claimed = self._claimed.get(limb)
-        return math.inf if claimed is None else float(time - claimed)
+    def since_moved(self, limb: str, time: Fraction) -> float:
+        """How long ago a task last moved a limb; infinite if none did."""
+        moved = self._moved.get(limb)
+        return math.inf if moved is None else float(time - moved)
 
-    def applied(self, current: Array, last: KeyPosture | None, time: Fraction) -> Array:
-        """Return a posture with the limbs at idle that have come to rest by an instant, (V,).
+    def posture_at(self, current: Array, last: KeyPosture | None, time: Fraction) -> Array:
+        """Return a posture with those limbs at neutral that have returned by an instant, (V,).
 
-        Args: current: (V,) the posture before. last: the key posture it is of.
+        Args: current: (V,) the posture before. last: the key posture it belongs to.
         """
         out = current.copy()
-        going_on: list[Bound] = []
+        going_on: list[TimedTask] = []
         if last is not None:
-            going_on = [b for b in last.bounds if b.requirement.interval.end >= time]
+            going_on = [t for t in last.timed_tasks if t.interval.end >= time]
         for limb, members in self.limbs.members.items():
-            way = transition_s(current[members], self.idle[members])
-            if self._rests(limb, time, last, going_on, way):
-                out[members] = self.idle[members]
+            needs_s = transition_s(current[members], self.neutral[members])
+            if self._has_returned(limb, time, last, going_on, needs_s):
+                out[members] = self.neutral[members]
         return out
 
-    def _rests(
+    def _has_returned(
         self,
         limb: str,
         time: Fraction,
         last: KeyPosture | None,
-        going_on: Iterable[Bound],
-        way_s: float,
+        going_on: Iterable[TimedTask],
+        needs_s: float,
     ) -> bool:
+        """Whether a limb has returned by an instant.
+
+        Args: going_on: tasks of the last posture that last until now. needs_s: time to return.
+        """
         needed = self._needed.get(limb)
         if needed is None or last is None:
             return True
-        if any(limb in b.limbs for b in going_on):
+        if any(limb in t.limbs for t in going_on):
             return False
-        levelled = limb in last.limbs and limb not in self._claimed
-        if limb in CARRIERS and not levelled:
-            since = self._claimed.get(limb, needed)
+        moved_by_solver = limb in last.limbs and limb not in self._moved
+        if limb in SELF_RETURNING and not moved_by_solver:
+            since = self._moved.get(limb, needed)
             starts = self._starts[limb]
             i = bisect_right(starts, since)
-            soon = i < len(starts) and starts[i] - since <= GO_ON_S
-            return not soon and time - since >= way_s
-        held = any(last.holds(limb, b.limbs | b.read_limbs) for b in going_on)
-        return time - needed > GO_ON_S and not held
+            needed_soon = i < len(starts) and starts[i] - since <= DIRECT_WITHIN_S
+            return not needed_soon and time - since >= needs_s
+        held = any(last.holds(limb, t.used_limbs) for t in going_on)
+        return time - needed > DIRECT_WITHIN_S and not held

@@ -1,4 +1,4 @@
-"""Measuring how far a movement is from what the score requires, frame by frame."""
+"""The residual monitor: how far a movement is from what the score requires, frame by frame."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.curves.movement import Movement
-from azee.motion.keys.transpath import Course
-from azee.motion.tasks.timed_task import Bound, BoundScore, GivingWay
+from azee.motion.keys.transpath import AnchoredPath
+from azee.motion.tasks.schedule import TaskSchedule
+from azee.motion.tasks.timed_task import EarlyEnd, TimedTask
 from azee_rig.chain import Frames
 from azee_solver.constraint import Constraint, Morph, Place, Transpath
 from azee_solver.evaluate import Evaluator, LengthOrAngle
@@ -23,11 +24,13 @@ Array = NDArray[np.float64]
 
 TOLERANCE = {"m": 1e-3, "rad": math.radians(0.5)}
 PATH_TOLERANCE_M = 2e-3
-"""Of sites on moving targets and paths, between keys."""
+"""Of sites on paths and at moving targets, between keys."""
+_SAME_S = 1e-9
+"""Times that differ by no more than this are the same instant."""
 
 
 @dataclass(frozen=True, eq=False)
-class Instants:
+class MovementSamples:
     """A movement at some instants: exact times, coordinates (T, V) and frames (T, …)."""
 
     times: tuple[Fraction, ...]
@@ -39,113 +42,125 @@ class Instants:
         """The times as numbers, (T,)."""
         return np.array([float(t) for t in self.times])
 
-    def only(self, rows: slice) -> Instants:
+    def only(self, rows: slice) -> MovementSamples:
         """Return some of the instants."""
         frames = Frames(self.frames.positions[rows], self.frames.rotations[rows])
-        return Instants(self.times[rows], self.q[rows], frames)
+        return MovementSamples(self.times[rows], self.q[rows], frames)
 
 
-def instants(movement: Movement, times: Iterable[Fraction], evaluator: Evaluator) -> Instants:
+def sample_movement(
+    movement: Movement, times: Iterable[Fraction], evaluator: Evaluator
+) -> MovementSamples:
     """Sample a movement, with forward kinematics of all instants at once."""
     exact = tuple(times)
     q = movement.sample(np.array([float(t) for t in exact]))
-    return Instants(exact, q, evaluator.rig.chain.frames(q))
+    return MovementSamples(exact, q, evaluator.rig.chain.frames(q))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Gauge:
-    """What measures one score on one rig.
+class ResidualMonitor:
+    """Measures the residuals of one score on one rig.
 
-    courses: by rank of their transpath. giving_way: by rank of what gives way.
+    paths: those whose ends are known, by rank of their transpath. early_ends: by rank of the task.
     """
 
     evaluator: Evaluator
-    score: BoundScore
-    courses: Mapping[int, Course]
-    giving_way: Mapping[int, GivingWay]
+    schedule: TaskSchedule
+    paths: Mapping[int, AnchoredPath]
+    early_ends: Mapping[int, EarlyEnd]
 
     @property
-    def measurable(self) -> tuple[Bound, ...]:
+    def measured_tasks(self) -> tuple[TimedTask, ...]:
         """What a movement can be measured against."""
-        return (*self.score.postures, *(c.travel.bound for c in self.courses.values()))
+        return (*self.schedule.posture_tasks, *(p.motion.task for p in self.paths.values()))
 
-    def steering(self, time: Fraction) -> list[Course]:
-        """Return the courses on which a site is at an instant."""
-        found = (self.courses.get(b.requirement.rank) for b in self.score.paths_at.at(time))
-        return [c for c in found if c is not None and c.travel.steers(time)]
+    def in_force(self, time: Fraction) -> list[TimedTask]:
+        """Return the tasks of a posture at an instant; those that have ended early are left out."""
+        return in_force(self.schedule, time, self.early_ends)
 
-    def tolerance(self, bound: Bound) -> float:
+    def paths_in_control(self, time: Fraction) -> list[AnchoredPath]:
+        """Return the paths that hold a site at an instant."""
+        found = (self.paths.get(t.rank) for t in self.schedule.transpaths_in_force.at(time))
+        return [path for path in found if path is not None and path.motion.controls(time)]
+
+    def tolerance(self, task: TimedTask) -> float:
         """Largest residual that counts as met, metres or radians."""
-        if bound.requirement.rank in self.courses:
+        if task.rank in self.paths:
             return PATH_TOLERANCE_M
-        unit = self.unit(bound)
-        return PATH_TOLERANCE_M if bound.dynamic and unit == "m" else TOLERANCE[unit]
+        unit = self.unit(task)
+        return PATH_TOLERANCE_M if task.dynamic and unit == "m" else TOLERANCE[unit]
 
-    def unit(self, bound: Bound) -> LengthOrAngle:
-        """Return the unit of a requirement's residual."""
-        return unit_of(bound.constraint)
+    def unit(self, task: TimedTask) -> LengthOrAngle:
+        """Return the unit of a task's residual."""
+        return unit_of(task.constraint)
 
-    def inside(self, bound: Bound, seconds: Array, *, enforced: bool = False) -> slice:
-        """Return which of increasing instants are inside a block, both ends included.
+    def rows_inside(self, task: TimedTask, seconds: Array, *, enforced: bool = False) -> slice:
+        """Return which of increasing instants are inside a task's block, both ends included.
 
-        Args: enforced: stop where the block gives way to another.
+        Args: enforced: only those at which the movement must meet it: up to its early end.
         """
-        r = bound.requirement
-        first, last = float(r.interval.start), float(r.interval.end)
-        if r.rank in self.courses:
-            travel = self.courses[r.rank].travel
-            first, last = float(travel.start), float(travel.end)
+        first, last = float(task.interval.start), float(task.interval.end)
+        if task.rank in self.paths:
+            motion = self.paths[task.rank].motion
+            first, last = float(motion.start), float(motion.end)
         last += _SAME_S
-        given = self.giving_way.get(r.rank)
-        if given is not None:
-            # The end itself is the other block's.
-            last = float(given.start) + _SAME_S if enforced else last - 2 * _SAME_S
+        early = self.early_ends.get(task.rank)
+        if early is not None:
+            # The end itself belongs to the block that starts there.
+            last = float(early.time) + _SAME_S if enforced else last - 2 * _SAME_S
         rows = np.searchsorted(seconds, (first - _SAME_S, last))
         return slice(int(rows[0]), max(int(rows[0]), int(rows[1])))
 
-    def residual(self, bound: Bound, at: Instants) -> Array:
-        """How far a requirement is from being met at instants inside its block, (T,)."""
-        course = self.courses.get(bound.requirement.rank)
-        if course is not None:
-            site = self.evaluator.site(course.travel.constraint.site, at.frames)
-            target = course.target(at.times, at.frames, self.evaluator)
+    def residual(self, task: TimedTask, samples: MovementSamples) -> Array:
+        """How far a task is from being met at instants inside its block, (T,)."""
+        path = self.paths.get(task.rank)
+        if path is not None:
+            site = self.evaluator.site(path.motion.constraint.site, samples.frames)
+            target = path.targets(samples.times, samples.frames, self.evaluator)
             return np.asarray(np.linalg.norm(site - target, axis=-1))
-        if bound.dynamic:
-            return self._dynamic(bound, at)
-        if not isinstance(bound.constraint, Morph):
-            return self.evaluator.residual(bound.constraint, at.frames, at.q)[0]
-        out = np.empty(len(at.times))
-        for among, rows in self._morphs(bound, at):
-            part = at.only(rows)
-            value = self.evaluator.residual(bound.constraint, part.frames, part.q, among=among)
+        if task.dynamic:
+            return self._to_moving_target(task, samples)
+        if not isinstance(task.constraint, Morph):
+            return self.evaluator.residual(task.constraint, samples.frames, samples.q)[0]
+        out = np.empty(len(samples.times))
+        for among, rows in self._concurrent_morphs(task, samples):
+            part = samples.only(rows)
+            value = self.evaluator.residual(task.constraint, part.frames, part.q, among=among)
             out[rows] = value[0]
         return out
 
-    def _dynamic(self, bound: Bound, at: Instants) -> Array:
-        out = np.empty(len(at.times))
-        for i, time in enumerate(at.times):
-            one = Frames(at.frames.positions[i], at.frames.rotations[i])
+    def _to_moving_target(self, task: TimedTask, samples: MovementSamples) -> Array:
+        out = np.empty(len(samples.times))
+        for i, time in enumerate(samples.times):
+            one = Frames(samples.frames.positions[i], samples.frames.rotations[i])
             value, _ = self.evaluator.residual(
-                bound.constraint, one, at.q[i], phase=bound.phase(time)
+                task.constraint, one, samples.q[i], phase=task.phase(time)
             )
             out[i] = float(value)
         return out
 
-    def _morphs(self, bound: Bound, at: Instants) -> Iterator[tuple[Sequence[Constraint], slice]]:
-        """Yield the skeletal morphs in force together with one, for they add, and when."""
-        others = self.score.sharing[bound]
-        parts = [self.inside(b, at.seconds, enforced=True) for b in others]
-        cuts = sorted({0, len(at.times), *(i for p in parts for i in (p.start, p.stop))})
+    def _concurrent_morphs(
+        self, task: TimedTask, samples: MovementSamples
+    ) -> Iterator[tuple[Sequence[Constraint], slice]]:
+        """Yield the morphs in force together with one, for their angles add, and in which rows."""
+        others = self.schedule.morphs_of_same_hand[task]
+        parts = [self.rows_inside(t, samples.seconds, enforced=True) for t in others]
+        cuts = sorted({0, len(samples.times), *(i for p in parts for i in (p.start, p.stop))})
         for first, last in pairwise(cuts):
-            forces = [
-                b.constraint
-                for b, part in zip(others, parts, strict=True)
+            concurrent = [
+                t.constraint
+                for t, part in zip(others, parts, strict=True)
                 if part.start <= first and last <= part.stop
             ]
-            yield [*dict.fromkeys([bound.constraint, *forces])], slice(first, last)
+            yield [*dict.fromkeys([task.constraint, *concurrent])], slice(first, last)
 
 
-_SAME_S = 1e-9
+def in_force(
+    schedule: TaskSchedule, time: Fraction, early_ends: Mapping[int, EarlyEnd]
+) -> list[TimedTask]:
+    """Return the tasks of a posture at an instant, both ends included, up to their early ends."""
+    found = ((t, early_ends.get(t.rank)) for t in schedule.in_force.at(time))
+    return [t for t, early in found if early is None or time <= early.time]
 
 
 def unit_of(constraint: Constraint) -> LengthOrAngle:

@@ -1,8 +1,10 @@
-"""Controlled movements: a site travels on its path between the blocks that place it.
+"""Path motions: a site moves on the path of a transpath, between the blocks that place it.
 
-A transpath takes its site from where the placement before leaves it to where the placement after
-wants it. Where placement and path overlap, the placement holds the site and the path takes the
-rest; where they leave a gap, the site waits. Along the path it moves by minimum jerk in time.
+A transpath leads its site from where the placement before it leaves the site to where the
+placement after it wants the site. While a placement overlaps the path in time, the placement holds
+the site and the path takes the rest. Where a gap is left between them, the site waits. Along the
+path it moves by minimum jerk: at time t it has covered the share s(τ) = 10τ³ − 15τ⁴ + 6τ⁵ of it,
+τ = (t − start)/(end − start).
 """
 
 from __future__ import annotations
@@ -17,9 +19,10 @@ from numpy.typing import NDArray
 
 from azee.clip.spline import minimum_jerk
 from azee.motion.curves.movement import Movement
-from azee.motion.tasks.posture import KeyPosture
-from azee.motion.tasks.spans import Spans
-from azee.motion.tasks.timed_task import Bound, BoundScore
+from azee.motion.tasks.interval_index import IntervalIndex
+from azee.motion.tasks.key_posture import KeyPosture
+from azee.motion.tasks.schedule import TaskSchedule
+from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
 from azee_solver.constraint import LookAt, Place, Transpath
@@ -31,70 +34,79 @@ Array = NDArray[np.float64]
 
 SAMPLE_LENGTH_M = 0.06
 SAMPLE_TURN_RAD = math.radians(45.0)
-FEWEST, MOST = 2, 48
-"""Samples on a path, its ends not counted: more are added where the curve misses it."""
+FEWEST_SAMPLES, MOST_SAMPLES = 2, 48
+"""Samples on a path, its ends not counted: more keys are inserted where the curve misses it."""
+_PATH_POINTS = 65
+"""Points with which a path's length and turns are measured."""
+_STILL_M = 1e-9
 
-WAITS_S = Fraction(3, 5)
-"""Placements farther away than this in time are not the ends of a movement."""
+LONGEST_WAIT_S = Fraction(3, 5)
+"""Placements farther away than this in time are not the ends of a path."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Travel:
-    """A transpath with the placements it leads from and to, and when the site is on its way.
+class PathMotion:
+    """A transpath, the placements it leads from and to, and when the site is on its way.
 
-    before, after: none where nothing places the site within `WAITS_S`; then the path starts or
-    ends where the body has the site anyway.
+    before, after: none where nothing places the site within `LONGEST_WAIT_S`; then the path starts
+    or ends where the body has the site anyway.
     """
 
-    bound: Bound
-    before: Bound | None
-    after: Bound | None
+    task: TimedTask
+    before: TimedTask | None
+    after: TimedTask | None
     start: Fraction
     end: Fraction
 
     @property
     def constraint(self) -> Transpath:
         """The transpath."""
-        assert isinstance(self.bound.constraint, Transpath)
-        return self.bound.constraint
+        assert isinstance(self.task.constraint, Transpath)
+        return self.task.constraint
 
     @property
     def between(self) -> Interval:
         """From where the placement before ends to where the placement after begins."""
-        first = self.start if self.before is None else self.before.requirement.interval.end
-        last = self.end if self.after is None else self.after.requirement.interval.start
-        return Interval(min(first, self.start), max(last, self.end))
+        return Interval(min(self._left, self.start), max(self._reached, self.end))
+
+    @property
+    def _left(self) -> Fraction:
+        """When the placement before leaves the site."""
+        return self.start if self.before is None else self.before.interval.end
+
+    @property
+    def _reached(self) -> Fraction:
+        """When the placement after takes the site."""
+        return self.end if self.after is None else self.after.interval.start
 
     def progress(self, time: Fraction) -> float:
         """How far along the path the site is, 0 to 1."""
         span = self.end - self.start
         return float(minimum_jerk(float((time - self.start) / span))) if span > 0 else 1.0
 
-    def steers(self, time: Fraction) -> bool:
+    def controls(self, time: Fraction) -> bool:
         """Whether the path, rather than a placement, holds the site at an instant."""
-        first = self.start if self.before is None else self.before.requirement.interval.end
-        last = self.end if self.after is None else self.after.requirement.interval.start
-        arrives = time > first if self.before is not None else time >= first
-        leaves = time < last if self.after is not None else time <= last
-        return self.start <= time <= self.end and arrives and leaves
+        is_left = time > self._left if self.before is not None else time >= self._left
+        is_before_end = time < self._reached if self.after is not None else time <= self._reached
+        return self.start <= time <= self.end and is_left and is_before_end
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
-    """A travel whose ends are known: world points (3,), metres."""
+class AnchoredPath:
+    """A path motion whose two ends are known: world points (3,), metres."""
 
-    travel: Travel
+    motion: PathMotion
     start: Array
     end: Array
 
-    def target(self, times: Sequence[Fraction], frames: Frames, evaluator: Evaluator) -> Array:
+    def targets(self, times: Sequence[Fraction], frames: Frames, evaluator: Evaluator) -> Array:
         """Return where the site should be at times, (T, 3); frames (T, …) of the body then."""
-        progress = np.array([self.travel.progress(t) for t in times])
-        path, reads = self.travel.constraint.path, bool(self.travel.bound.reads)
-        if not reads:
+        progress = np.array([self.motion.progress(t) for t in times])
+        path, reads_body = self.motion.constraint.path, bool(self.motion.task.reads)
+        if not reads_body:
             one = Frames(frames.positions[:1], frames.rotations[:1])
-            line = evaluator.path(path, self.start, self.end, progress, one)
-            return np.asarray(line.reshape(-1, 3))
+            points = evaluator.path(path, self.start, self.end, progress, one)
+            return np.asarray(points.reshape(-1, 3))
         return np.stack(
             [
                 evaluator.path(
@@ -108,159 +120,161 @@ class Course:
             ]
         )
 
-    def task(self, point: Array) -> Task:
+    def ik_task(self, point: Array) -> Task:
         """Return the placement of the site on a point of its path."""
-        r = self.travel.bound.requirement
+        task = self.motion.task
         place = Place(
-            self.travel.constraint.site,
+            self.motion.constraint.site,
             WorldPoint(*(float(x) for x in point)),
-            origin=r.constraint.origin,
+            origin=task.constraint.origin,
         )
-        return Task(place, r.path, r.interval.start, r.rank)
+        return Task(place, task.path, task.interval.start, task.rank)
 
 
-def travels(score: BoundScore, dominant: Side) -> tuple[Travel, ...]:
-    """Find between which placements every transpath leads."""
+def path_motions(schedule: TaskSchedule, dominant: Side) -> tuple[PathMotion, ...]:
+    """Find for every transpath from which placement it leads to which."""
     out = []
-    for path in score.paths:
-        assert isinstance(path.constraint, Transpath)
-        site, own = path.constraint.site.key(dominant), path.requirement.interval
-        near = score.in_force.meeting(Interval(own.start - WAITS_S, own.end + WAITS_S))
+    for task in schedule.transpaths:
+        assert isinstance(task.constraint, Transpath)
+        site, own = task.constraint.site.key(dominant), task.interval
+        around = Interval(own.start - LONGEST_WAIT_S, own.end + LONGEST_WAIT_S)
         placements = [
-            b
-            for b in near
-            if isinstance(b.constraint, Place) and b.constraint.site.key(dominant) == site
+            t
+            for t in schedule.in_force.overlapping(around)
+            if isinstance(t.constraint, Place) and t.constraint.site.key(dominant) == site
         ]
-        out.append(_travel(path, placements))
+        out.append(_path_motion(task, placements))
     return tuple(out)
 
 
-def _travel(path: Bound, placements: Sequence[Bound]) -> Travel:
-    own = path.requirement.interval
+def _path_motion(task: TimedTask, placements: Sequence[TimedTask]) -> PathMotion:
+    own = task.interval
     earlier, later = [], []
-    for b in placements:
-        span = b.requirement.interval
-        if span.start <= own.start and own.start - WAITS_S <= span.end < own.end:
-            earlier.append(b)
-        if span.end >= own.end and own.start < span.start <= own.end + WAITS_S:
-            later.append(b)
-    before = max(earlier, key=lambda b: b.requirement.interval.end, default=None)
-    after = min(later, key=lambda b: b.requirement.interval.start, default=None)
-    start = own.start if before is None else max(own.start, before.requirement.interval.end)
-    end = own.end if after is None else min(own.end, after.requirement.interval.start)
-    return Travel(path, before, after, start, max(start, end))
+    for placement in placements:
+        span = placement.interval
+        if span.start <= own.start and own.start - LONGEST_WAIT_S <= span.end < own.end:
+            earlier.append(placement)
+        if span.end >= own.end and own.start < span.start <= own.end + LONGEST_WAIT_S:
+            later.append(placement)
+    before = max(earlier, key=lambda t: t.interval.end, default=None)
+    after = min(later, key=lambda t: t.interval.start, default=None)
+    start = own.start if before is None else max(own.start, before.interval.end)
+    end = own.end if after is None else min(own.end, after.interval.start)
+    return PathMotion(task, before, after, start, max(start, end))
 
 
-def by_time(known: Iterable[Travel]) -> Spans[Travel]:
-    """Return travels by when they are between their placements."""
-    return Spans((k.between, k) for k in known)
+def index_by_time(motions: Iterable[PathMotion]) -> IntervalIndex[PathMotion]:
+    """Return path motions by when they are between their placements."""
+    return IntervalIndex((m.between, m) for m in motions)
 
 
-def deferred(known: Sequence[Travel], times: Iterable[Fraction]) -> frozenset[Fraction]:
-    """Return keyframes that lie on a path and on which no path's end depends."""
-    spans = by_time(known)
-    return frozenset(t for t in times if any(k.steers(t) for k in spans.at(t))) - ends(known)
-
-
-def ends(known: Iterable[Travel]) -> frozenset[Fraction]:
-    """Return the instants at which placements leave sites to paths and take them back."""
+def end_times(motions: Iterable[PathMotion]) -> frozenset[Fraction]:
+    """Return the instants at which placements leave sites to paths or take them back."""
     out: set[Fraction] = set()
-    for travel in known:
-        if travel.before is not None:
-            out.add(travel.before.requirement.interval.end)
-        if travel.after is not None:
-            out.add(travel.after.requirement.interval.start)
+    for motion in motions:
+        if motion.before is not None:
+            out.add(motion.before.interval.end)
+        if motion.after is not None:
+            out.add(motion.after.interval.start)
     return frozenset(out)
 
 
-def passing_limbs(
-    time: Fraction, bounds: Sequence[Bound], known: Iterable[Travel]
+def boundaries_on_paths(
+    motions: Sequence[PathMotion], schedule: TaskSchedule
+) -> frozenset[Fraction]:
+    """Return the boundaries at which a path holds a site and on which no path's end depends.
+
+    They can be solved only when the ends of the paths are known.
+    """
+    index = index_by_time(motions)
+    times = (keyframe.time for keyframe in schedule.timeline.keyframes)
+    on_paths = (t for t in times if any(m.controls(t) for m in index.at(t)))
+    return frozenset(on_paths) - end_times(motions)
+
+
+def limbs_on_paths(
+    time: Fraction, tasks: Sequence[TimedTask], motions: Iterable[PathMotion]
 ) -> frozenset[str]:
-    """Return limbs in the middle of a controlled movement, and those that must follow them."""
+    """Return limbs in the middle of a path or behind a moving target, and what follows them."""
     moving: set[str] = set()
-    for travel in known:
-        if travel.start < time < travel.end:
-            moving |= travel.bound.limbs
-    for b in bounds:
-        motion = b.requirement.motion
-        if b.dynamic and motion.start < time < motion.end:
-            moving |= b.limbs
+    for motion in motions:
+        if motion.start < time < motion.end:
+            moving |= motion.task.limbs
+    for task in tasks:
+        span = task.requirement.motion
+        if task.dynamic and span.start < time < span.end:
+            moving |= task.limbs
     while True:
-        following = {limb for b in bounds if b.read_limbs & moving for limb in b.limbs}
+        following = {limb for t in tasks if t.read_limbs & moving for limb in t.limbs}
         if following <= moving:
             return frozenset(moving)
         moving |= following
 
 
-def courses(
-    known: Iterable[Travel],
+def anchor(
+    motions: Iterable[PathMotion],
     postures: Sequence[KeyPosture],
     movement: Movement,
     evaluator: Evaluator,
-) -> dict[int, Course]:
-    """Measure where travels start and end, on key postures or else on the movement.
+) -> dict[int, AnchoredPath]:
+    """Measure where paths start and end: on key postures of their placements, else on a movement.
 
-    Args: postures: in order of time. Returns: courses by rank of their transpath.
+    Args: postures: in order of time. Returns: paths by rank of their transpath.
     """
-    first: dict[Bound, KeyPosture] = {}
-    last: dict[Bound, KeyPosture] = {}
+    first: dict[TimedTask, KeyPosture] = {}
+    last: dict[TimedTask, KeyPosture] = {}
     for posture in postures:
-        for bound in posture.bounds:
-            first.setdefault(bound, posture)
-            last[bound] = posture
+        for task in posture.timed_tasks:
+            first.setdefault(task, posture)
+            last[task] = posture
 
-    def place(travel: Travel, posture: KeyPosture | None, time: Fraction) -> Array:
+    def site(motion: PathMotion, posture: KeyPosture | None, time: Fraction) -> Array:
         at = np.array([float(time)])
         q = movement.sample(at)[0] if posture is None else posture.coordinates
-        return evaluator.site(travel.constraint.site, evaluator.rig.chain.frames(q))
+        return evaluator.site(motion.constraint.site, evaluator.rig.chain.frames(q))
 
     out = {}
-    for travel in known:
-        leaves = None if travel.before is None else last.get(travel.before)
-        arrives = None if travel.after is None else first.get(travel.after)
-        out[travel.bound.requirement.rank] = Course(
-            travel, place(travel, leaves, travel.start), place(travel, arrives, travel.end)
+    for motion in motions:
+        leaving = None if motion.before is None else last.get(motion.before)
+        arriving = None if motion.after is None else first.get(motion.after)
+        out[motion.task.rank] = AnchoredPath(
+            motion, site(motion, leaving, motion.start), site(motion, arriving, motion.end)
         )
     return out
 
 
-def course_samples(whole: Course, frames: Frames, evaluator: Evaluator) -> list[Fraction]:
+def path_sample_times(path: AnchoredPath, frames: Frames, evaluator: Evaluator) -> list[Fraction]:
     """Return instants at which to sample a path. `frames`: one posture, for paths that read it."""
-    travel = whole.travel
-    line = evaluator.path(
-        travel.constraint.path, whole.start, whole.end, np.linspace(0.0, 1.0, _FINE), frames
-    )
-    return sample_times(line, Interval(travel.start, travel.end))
+    motion = path.motion
+    progress = np.linspace(0.0, 1.0, _PATH_POINTS)
+    points = evaluator.path(motion.constraint.path, path.start, path.end, progress, frames)
+    return sample_times(points, Interval(motion.start, motion.end))
 
 
-def moving_samples(bound: Bound, frames: Frames, evaluator: Evaluator) -> list[Fraction]:
-    """Return instants at which to sample a dynamic point. `frames`: one posture."""
-    assert isinstance(bound.constraint, Place | LookAt)
-    point = bound.constraint.point
-    phases = np.linspace(0.0, 1.0, _FINE)
-    line = np.stack([evaluator.point(point, frames, float(s)) for s in phases])
-    r = bound.requirement
-    return [t for t in sample_times(line, r.motion) if r.covers(t)]
+def target_sample_times(task: TimedTask, frames: Frames, evaluator: Evaluator) -> list[Fraction]:
+    """Return instants at which to sample a moving target. `frames`: one posture."""
+    assert isinstance(task.constraint, Place | LookAt)
+    point = task.constraint.point
+    phases = np.linspace(0.0, 1.0, _PATH_POINTS)
+    points = np.stack([evaluator.point(point, frames, float(s)) for s in phases])
+    requirement = task.requirement
+    return [t for t in sample_times(points, requirement.motion) if requirement.covers(t)]
 
 
-def sample_times(line: Array, interval: Interval) -> list[Fraction]:
+def sample_times(points: Array, interval: Interval) -> list[Fraction]:
     """Return instants at even steps along a path, enough of them for its length and turns.
 
-    Args: line: (n, 3) points at even steps of the path's own parameter.
+    Args: points: (n, 3) at even steps of the path's own parameter.
     """
-    if interval.duration == 0 or not np.all(np.isfinite(line)):
+    if interval.duration == 0 or not np.all(np.isfinite(points)):
         return []
-    steps = np.diff(line, axis=0)
+    steps = np.diff(points, axis=0)
     lengths = np.linalg.norm(steps, axis=1)
     directions = steps[lengths > _STILL_M] / lengths[lengths > _STILL_M, None]
     turns = np.arccos(np.clip(np.sum(directions[1:] * directions[:-1], axis=1), -1.0, 1.0))
     wanted = max(lengths.sum() / SAMPLE_LENGTH_M, turns.sum() / SAMPLE_TURN_RAD)
-    count = int(np.clip(math.ceil(wanted), FEWEST, MOST))
+    count = int(np.clip(math.ceil(wanted), FEWEST_SAMPLES, MOST_SAMPLES))
     grid = np.linspace(0.0, 1.0, 1001)
     times = np.interp(np.arange(1, count + 1) / (count + 1), minimum_jerk(grid), grid)
     parts = 10_000
     return [interval.start + interval.duration * Fraction(round(t * parts), parts) for t in times]
-
-
-_FINE = 65
-_STILL_M = 1e-9

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.tasks.posture import PostureSolver, Search
+from azee.motion.tasks.key_posture import PostureSolver, Search
 from azee_rig.rig import Rig
 from azee_solver.geometry import Side
 from azee_solver.solve_report import SolveReport
@@ -16,18 +16,18 @@ from azee_solver.two_level import solve_two_level
 
 
 def two_level_solver(rig: Rig, dominant: Side) -> PostureSolver:
-    """Return a solver of key postures that knows one way to search, wherever it is to look."""
+    """Return a posture solver that searches in one way, whatever `search` asks for."""
 
     def answer(
-        tasks: Sequence[Task],
+        ik_tasks: Sequence[Task],
         *,
         start: NDArray[np.float64],
         reference: NDArray[np.float64],
-        search: Search = Search.WIDE,
+        search: Search = Search.GLOBAL,
         fixed: frozenset[int] = frozenset(),
     ) -> SolveReport:
         return solve_two_level(
-            rig, tasks, dominant=dominant, start=start, reference=reference, fixed=fixed
+            rig, ik_tasks, dominant=dominant, start=start, reference=reference, fixed=fixed
         )
 
     return answer

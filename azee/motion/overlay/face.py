@@ -1,10 +1,10 @@
 """Facial morphs over time.
 
-A facial block's weight rises and falls inside the block: a bell with its apex in the middle where
-the block is short, a plateau between two ramps where it is longer (the curves that Sharma 2024
-publishes are bells). What a hold keeps goes on without a dip, and where a block follows another
-of the same morph at once, the weight goes from one to the next. Blocks of one morph that overlap
-do not add up, the stronger shows; different morphs that use the same part of the face do add.
+A facial block's weight rises and falls inside the block by minimum jerk: in a short block it is a
+bell with its apex in the middle, in a longer one a plateau between two ramps (the curves that
+Sharma 2024 publishes are bells). What a hold keeps goes on without a dip. Where a block follows
+another of the same morph at once, the weight goes from one to the next. Overlapping blocks of one
+morph do not add up: the stronger shows. Different morphs of the same part of the face do add up.
 """
 
 from __future__ import annotations
@@ -17,17 +17,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.spline import minimum_jerk
-from azee.motion.tasks.timed_task import Bound
+from azee.motion.tasks.timed_task import TimedTask
 from azee_solver.constraint import Morph
 from azee_solver.geometry import Side
 
 Array = NDArray[np.float64]
 
 RAMP_S = 0.15
-"""Attack and decay."""
+"""Length of the rise and of the fall of a weight."""
 SHORTEST_RAMP_S = 0.05
-"""A face cannot move faster: the ramps of a shorter bell begin before it and end after."""
-MOST = 1.0
+"""A face cannot move faster: the ramps of a shorter block begin before it and end after it."""
+LARGEST_WEIGHT = 1.0
 """Largest weight of a face unit to either side, unless one morph alone asks for more."""
 
 
@@ -41,7 +41,7 @@ class Plateau:
 
 
 def face_weights(
-    faces: Iterable[Bound],
+    facial_morphs: Iterable[TimedTask],
     morphs: Mapping[str, Mapping[str, float]],
     units: Sequence[str],
     dominant: Side,
@@ -52,22 +52,22 @@ def face_weights(
     Args: morphs: weight that a morph of weight 1 gives each unit, as a rig has it.
     """
     plateaus: dict[str, list[Plateau]] = {}
-    for b in faces:
-        assert isinstance(b.constraint, Morph)
-        interval = b.requirement.interval
-        plateaus.setdefault(b.constraint.key(dominant), []).append(
-            Plateau(interval.start, interval.end, b.constraint.weight)
+    for task in facial_morphs:
+        morph, interval = task.constraint, task.interval
+        assert isinstance(morph, Morph)
+        plateaus.setdefault(morph.key(dominant), []).append(
+            Plateau(interval.start, interval.end, morph.weight)
         )
     out = np.zeros((len(times_s), len(units)))
-    alone = np.full(len(units), MOST)
+    largest = np.full(len(units), LARGEST_WEIGHT)
     for name, blocks in plateaus.items():
         curve = weight_curve(blocks, times_s)
         strongest = max(abs(b.weight) for b in blocks)
         for unit, share in morphs[name].items():
             column = units.index(unit)
             out[:, column] += share * curve
-            alone[column] = max(alone[column], abs(share) * strongest)
-    return np.clip(out, -alone, alone)
+            largest[column] = max(largest[column], abs(share) * strongest)
+    return np.clip(out, -largest, largest)
 
 
 def weight_curve(blocks: Iterable[Plateau], times_s: Array) -> Array:
@@ -83,7 +83,7 @@ def weight_curve(blocks: Iterable[Plateau], times_s: Array) -> Array:
 
 
 def _chains(blocks: Iterable[Plateau]) -> list[list[Plateau]]:
-    """Group blocks that follow one another without a gap; equal weights melt into one."""
+    """Group blocks that follow one another without a gap; those of equal weight become one."""
     chains: list[list[Plateau]] = []
     for block in sorted(blocks, key=lambda b: (b.start, b.end)):
         for chain in chains:
@@ -121,12 +121,11 @@ def _ramp(block: Plateau) -> float:
     return min(RAMP_S, max(SHORTEST_RAMP_S, float(block.end - block.start) / 2))
 
 
-def busy(faces: Iterable[Bound], times_s: Array) -> NDArray[np.bool_]:
-    """Whether a facial block is on at times, its ramps included, (T,)."""
+def is_active(facial_morphs: Iterable[TimedTask], times_s: Array) -> NDArray[np.bool_]:
+    """Whether a facial block shows at times, its ramps included, (T,)."""
     out = np.zeros(len(times_s), dtype=np.bool_)
-    for b in faces:
-        interval = b.requirement.interval
-        ends = (float(interval.start) - RAMP_S, float(interval.end) + RAMP_S)
+    for task in facial_morphs:
+        ends = (float(task.interval.start) - RAMP_S, float(task.interval.end) + RAMP_S)
         first, last = np.searchsorted(times_s, ends)
         out[first:last] = True
     return out

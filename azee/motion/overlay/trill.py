@@ -1,10 +1,10 @@
-"""Trills: small rapid oscillations laid on top of what the other constraints fix.
+"""Trills: small rapid oscillations, added to the movement that the other constraints fix.
 
-Bones turn about the trill's axis by amplitude · sin 2πft, faded in and out inside the block and
-clamped to the limits. An axis means what it means to `rotate`: without bones or sites in it, it
-has the components x, dir and nrm of the parent bone's frame, otherwise it is a direction of the
-signer's frame. Where a bone's own joint cannot turn about the axis (a palm about its own length),
-the joint before it helps (the forearm turns).
+A bone turns about the trill's axis by the angle amplitude · sin 2πft, faded in and out inside the
+block and clamped to the limits. An axis means what it means to `rotate`: without bones or sites in
+it, it has the components x, dir and nrm of the parent bone's frame; otherwise it is a direction of
+the signer's frame. Where a bone's own joint cannot turn about the axis (a palm about its own
+length), the joint before it helps (the forearm turns).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.spline import minimum_jerk
-from azee.motion.tasks.timed_task import Bound
+from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
 from azee_rig.coordinates import Coordinates
 from azee_solver.anatomy import anatomy
@@ -28,26 +28,28 @@ from azee_solver.geometry import depends_on
 Array = NDArray[np.float64]
 
 FADE_S = 0.1
-ENOUGH = 0.9
+OWN_JOINT_SHARE = 0.9
 """Share of the axis that a bone's own joint must be able to turn about, or the next one helps."""
 _STEP_RAD = 1e-5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Oscillation:
-    """A trill on one body: bound, and change of the coordinates per radian of swing, (V,)."""
+    """A trill on one body.
 
-    bound: Bound
+    direction: (V,) change of the coordinates per radian of the angle. turnable: share of the axis
+    that the joints can turn about, 0 to 1.
+    """
+
+    task: TimedTask
     direction: Array
-    reach: float
-    """Share of the axis that the joints can turn about, 0 to 1."""
+    turnable: float
 
-    def swing(self, times_s: Array) -> Array:
+    def angles(self, times_s: Array) -> Array:
         """Return the angle at times, (T,) radians."""
-        trill = self.bound.constraint
+        trill = self.task.constraint
         assert isinstance(trill, Trill)
-        interval = self.bound.requirement.interval
-        start, end = float(interval.start), float(interval.end)
+        start, end = float(self.task.interval.start), float(self.task.interval.end)
         fade = min(FADE_S, (end - start) / 2)
         if fade <= 0:
             return np.zeros(len(times_s))
@@ -56,38 +58,39 @@ class Oscillation:
         return np.asarray(trill.amplitude_rad * envelope * wave)
 
 
-def oscillation(bound: Bound, q: Array, evaluator: Evaluator) -> Oscillation:
+def oscillation(task: TimedTask, q: Array, evaluator: Evaluator) -> Oscillation:
     """Find how the coordinates turn a trilled bone about its axis.
 
-    The least change whose angular velocity is the axis, as far as the joints allow.
+    The direction d is the least-squares solution of J d = axis, J being the (3, n) angular
+    velocities of the bone per unit speed of the coordinates of its joint.
 
     Args: q: (V,) posture in the middle of the trill.
     """
-    trill = bound.constraint
+    trill = task.constraint
     assert isinstance(trill, Trill)
     chain, coordinates = evaluator.rig.chain, evaluator.rig.coordinates
     nodes = evaluator.binding.bone(trill.bone)
     frames = chain.frames(q)
     axis = _world_axis(trill, frames, evaluator)
     body = anatomy(chain, coordinates)
-    best = Oscillation(bound, np.zeros(len(coordinates)), 0.0)
+    best = Oscillation(task, np.zeros(len(coordinates)), 0.0)
     first = int(chain.parents[nodes.origin_node])
     for _ in range(2):
         movers = sorted(body.below(first, nodes.node))
-        rates = np.stack([_turning(evaluator, q, v, nodes.node) for v in movers], axis=1)
-        change = np.linalg.lstsq(rates, axis, rcond=1e-6)[0]
-        reach = float(np.linalg.norm(rates @ change))
-        if reach > best.reach + 1e-6:
+        J = np.stack([_angular_velocity(evaluator, q, v, nodes.node) for v in movers], axis=1)
+        change = np.linalg.lstsq(J, axis, rcond=1e-6)[0]
+        turnable = float(np.linalg.norm(J @ change))
+        if turnable > best.turnable + 1e-6:
             direction = np.zeros(len(coordinates))
             direction[movers] = change
-            best = Oscillation(bound, direction, reach)
-        if reach >= ENOUGH or first < 0:
+            best = Oscillation(task, direction, turnable)
+        if turnable >= OWN_JOINT_SHARE or first < 0:
             break
-        first = _before(first, evaluator)
+        first = _joint_before(first, evaluator)
     return best
 
 
-def laid_on(
+def add_trills(
     q: Array, times_s: Array, trills: Sequence[Oscillation], coordinates: Coordinates
 ) -> tuple[Array, dict[int, float]]:
     """Add trills to a movement, inside the limits.
@@ -96,22 +99,22 @@ def laid_on(
     Returns: coordinates (T, V), and per rank of a trill the largest angle it falls short by.
     """
     out = q.copy()
-    short: dict[int, float] = {}
+    shortfalls: dict[int, float] = {}
     for trill in trills:
-        interval = trill.bound.requirement.interval
+        interval = trill.task.interval
         ends = np.searchsorted(times_s, (float(interval.start), float(interval.end)))
         rows = slice(int(ends[0]), int(ends[1]))
-        wanted = out[rows] + trill.swing(times_s[rows])[:, None] * trill.direction
+        wanted = out[rows] + trill.angles(times_s[rows])[:, None] * trill.direction
         out[rows] = np.clip(wanted, coordinates.lower, coordinates.upper)
-        lost = float(np.max(np.abs(wanted - out[rows]), initial=0.0))
-        constraint = trill.bound.constraint
+        clamped = float(np.max(np.abs(wanted - out[rows]), initial=0.0))
+        constraint = trill.task.constraint
         assert isinstance(constraint, Trill)
-        missing = (1.0 - trill.reach) * constraint.amplitude_rad
-        short[trill.bound.requirement.rank] = max(lost, missing)
-    return out, short
+        not_turnable = (1.0 - trill.turnable) * constraint.amplitude_rad
+        shortfalls[trill.task.rank] = max(clamped, not_turnable)
+    return out, shortfalls
 
 
-def _before(node: int, evaluator: Evaluator) -> int:
+def _joint_before(node: int, evaluator: Evaluator) -> int:
     """Return the node that the bone above a node hangs on, −1 for none."""
     parents = evaluator.rig.chain.parents
     origins = {bone.node: bone.origin_node for bone in evaluator.rig.bones.values()}
@@ -120,7 +123,7 @@ def _before(node: int, evaluator: Evaluator) -> int:
     return int(parents[origins[node]]) if node >= 0 else -1
 
 
-def _turning(evaluator: Evaluator, q: Array, coordinate: int, node: int) -> Array:
+def _angular_velocity(evaluator: Evaluator, q: Array, coordinate: int, node: int) -> Array:
     """World angular velocity of a node per unit speed of a coordinate, (3,)."""
     both = np.stack([q, q])
     both[0, coordinate] -= _STEP_RAD

@@ -5,9 +5,9 @@ a copy of every constraint that holds at that instant, so a block is in the keyf
 in the one it ends at and in all between. Blocks of no length give one keyframe.
 
 At a boundary where one block ends and another begins, the keyframe carries both: `closing` is
-what ends there and `opening` what goes on. One posture serves both when it can; when it cannot,
-the instant belongs to the opening blocks and the closing block's end key moves before it (see
-`keyframes`).
+what ends there and `opening` what begins or goes on. One posture serves both when it can; when it
+cannot, the instant belongs to the opening blocks and the closing block ends early (see
+`azee.motion.keys.boundaries`).
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TypeAlias
 
+from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.requirement import Requirement
-from azee.motion.tasks.spans import Spans
 from azee.score.score import Block, Group, Hold, Key, Leaf, Score, leaves
 from azee_solver.constraint import Transpath, Trill
 
@@ -65,8 +65,8 @@ def flatten(score: Score) -> Timeline:
         for requirement in _required(leaf, inside, ()):
             required.append(replace(requirement, rank=len(required)))
     times = sorted({t for leaf in found for t in (leaf.interval.start, leaf.interval.end)})
-    spans = Spans((r.interval, r) for r in required)
-    keyframes = tuple(Keyframe(t, tuple(spans.at(t))) for t in times)
+    in_force = IntervalIndex((r.interval, r) for r in required)
+    keyframes = tuple(Keyframe(t, tuple(in_force.at(t))) for t in times)
     return Timeline(score.duration, tuple(required), keyframes)
 
 
@@ -92,9 +92,9 @@ def _required(
 def _held(
     leaf: Leaf, hold: Hold, inside: _Inside, holding: tuple[tuple[str, ...], ...]
 ) -> Iterator[Requirement]:
-    """Extend what the held block's leaves that last until its end require.
+    """Extend the requirements of those leaves of the held block that last until its end.
 
-    Trills and transpaths are movements, not something reached: holds leave them out.
+    Trills and transpaths are movements, which nothing can hold: holds leave them out.
     """
     if leaf.path in holding:
         raise ValueError(f"blocks hold each other in a circle: {'/'.join(leaf.path)}")

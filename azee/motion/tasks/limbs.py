@@ -1,7 +1,8 @@
 """Limbs: the parts of a body whose coordinates are keyed together.
 
-A keyframe keys the limbs that something constrains there and leaves the others to their own
-times, so that a head shake does not freeze an arm in mid-air.
+The signer has fifteen: trunk, head with neck, eyes, each arm from clavicle to palm, each finger.
+A key posture keys only limbs that something constrains there. The others have keys at their own
+times, so that a head shake does not stop an arm on its way.
 """
 
 from __future__ import annotations
@@ -31,8 +32,8 @@ from azee_solver.geometry import Bone, Site
 
 TRUNK = "trunk"
 """The limb that carries all others."""
-LINKS = (TRUNK, "head")
-"""Limbs that move others along."""
+CARRIERS = (TRUNK, "head")
+"""Limbs that carry others: where they turn, arms, head or eyes go along."""
 
 _FINGER = re.compile(r"((?:thumb|index|middle|ring|little)_[LR])(?:_\d)?")
 _ARM = re.compile(r"(?:clav|arm|f_arm|palm)_([LR])")
@@ -86,9 +87,9 @@ class Limbs:
 
 
 def limb_of_constraint(constraint: Constraint, binding: Binding) -> str:
-    """Limb that a constraint speaks of; `face` for a facial morph.
+    """Limb of the bone or site that a constraint names; `face` for a facial morph.
 
-    A placed site counts as its bone's, gaze as the eyes'. Raises: BindingError.
+    A site belongs to the limb of its bone; gaze belongs to the eyes. Raises: BindingError.
     """
     match constraint:
         case Place(site=Site() as site) | Transpath(site=Site() as site):

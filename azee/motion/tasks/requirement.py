@@ -1,4 +1,4 @@
-"""One constraint of one block, on the one time line of the whole score."""
+"""A requirement: one constraint of one block, on the time line of the whole score."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from azee_solver.constraint import Constraint
 
 @dataclass(frozen=True, slots=True)
 class Requirement:
-    """A constraint and when it holds.
+    """A constraint, when it holds, and where it stands in the score.
 
     path: names of the blocks that lead to it, outermost first. rule: the innermost rule
-    application it stands in. interval: when it holds. motion: over which its dynamic points move;
-    differs from `interval` in a hold, which keeps them where they ended. rank: order in the
-    nesting, which breaks ties between blocks of equal start. held_channels: for a hold, which
-    parts of the body it keeps; which constraint speaks of which part is known only on a rig.
+    application it stands in. interval: when it holds. motion: the interval over which its dynamic
+    points move; differs from `interval` in a hold, which keeps them where they ended. rank: order
+    in the nesting, which breaks ties between blocks of equal start. held_channels: for a hold,
+    which parts of the body it keeps; only a rig tells which part a constraint concerns.
     """
 
     constraint: Constraint

@@ -1,14 +1,15 @@
-"""Which block keys which coordinates, and when: what a picture of a movement draws."""
+"""Tracks: which block keys which coordinates, and when. Pictures of a movement draw them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from azee.motion.tasks.keying import Keying
-from azee.motion.tasks.limbs import LINKS
-from azee.motion.tasks.posture import KeyPosture
-from azee.motion.tasks.timed_task import Bound, BoundScore
+from azee.motion.tasks.key_posture import KeyPosture
+from azee.motion.tasks.key_selection import KeySelection
+from azee.motion.tasks.limbs import CARRIERS
+from azee.motion.tasks.schedule import TaskSchedule
+from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.coordinates import Coordinates
 from azee_solver.constraint import Trill
 
@@ -30,50 +31,51 @@ class Track:
 
 
 def tracks(
-    score: BoundScore, postures: Sequence[KeyPosture], keying: Keying, coordinates: Coordinates
+    schedule: TaskSchedule,
+    postures: Sequence[KeyPosture],
+    selection: KeySelection,
+    coordinates: Coordinates,
 ) -> tuple[Track, ...]:
     """Return what every block keys, in the order of the score; in flat mode, one for the whole.
 
-    Blocks that need the same hand or arm both have its track. Trunk and head, which link the
-    others, are only the track of their owner: whoever speaks of them, else of the blocks that need
-    them the one that began first. Faces have no coordinates and no track; trills have one without
-    keys.
+    Blocks that move the same hand or arm both have it in their track. Trunk and head, which carry
+    others, are in the track of one block only: the one that names them, else the first to begin of
+    those that move them. Faces have no coordinates and no track; trills have one without keys.
     """
-    if keying.flat:
+    if selection.flat:
         keys = tuple(sorted({float(p.time) for p in postures}))
-        return (Track((), tuple(coordinates.names), keys, 0.0, float(score.timeline.duration)),)
-    keyed: dict[Bound, dict[str, list[float]]] = {b: {} for b in score.moving}
+        return (Track((), tuple(coordinates.names), keys, 0.0, float(schedule.timeline.duration)),)
+    key_times: dict[TimedTask, dict[str, list[float]]] = {t: {} for t in schedule.body_tasks}
     for posture in postures:
         for limb in posture.limbs:
-            users = [b for b in posture.bounds if limb in b.limbs]
-            for b in _owners(limb, users):
-                keyed[b].setdefault(limb, []).append(float(posture.time))
-    found: dict[tuple[str, ...], list[Bound]] = {}
-    for bound in sorted(keyed, key=lambda b: b.requirement.rank):
-        found.setdefault(bound.requirement.path, []).append(bound)
+            movers = [t for t in posture.timed_tasks if limb in t.limbs]
+            for task in _owners(limb, movers):
+                key_times[task].setdefault(limb, []).append(float(posture.time))
+    blocks: dict[tuple[str, ...], list[TimedTask]] = {}
+    for task in sorted(key_times, key=lambda t: t.rank):
+        blocks.setdefault(task.path, []).append(task)
     out = []
-    for path, bounds in found.items():
+    for path, tasks in blocks.items():
         moved: set[int] = set()
         times: set[float] = set()
-        for b in bounds:
-            limbs = keyed[b]
-            own = {b.limb} if isinstance(b.constraint, Trill) else limbs.keys()
+        for task in tasks:
+            limbs = key_times[task]
+            own = {task.limb} if isinstance(task.constraint, Trill) else limbs.keys()
             moved |= {
-                v for limb in own for v in keying.limbs.members[limb].tolist() if v in b.moves
+                v for limb in own for v in selection.limbs.members[limb].tolist() if v in task.moves
             }
             times.update(t for keys in limbs.values() for t in keys)
-        first = min(b.requirement.interval.start for b in bounds)
-        last = max(b.requirement.interval.end for b in bounds)
+        first = min(t.interval.start for t in tasks)
+        last = max(t.interval.end for t in tasks)
         names = tuple(coordinates.names[v] for v in sorted(moved))
         if names:
             out.append(Track(path, names, tuple(sorted(times)), float(first), float(last)))
     return tuple(out)
 
 
-def _owners(limb: str, users: Sequence[Bound]) -> Sequence[Bound]:
-    """Return whose track a limb's key is."""
-    speaking = [b for b in users if b.limb == limb]
-    if limb not in LINKS or speaking:
-        return speaking if limb in LINKS else users
-    order = sorted(users, key=lambda b: (b.requirement.interval.start, b.requirement.rank))
-    return order[:1]
+def _owners(limb: str, movers: Sequence[TimedTask]) -> Sequence[TimedTask]:
+    """Return the tasks that have a key of a limb in their track."""
+    if limb not in CARRIERS:
+        return movers
+    naming = [t for t in movers if t.limb == limb]
+    return naming or sorted(movers, key=lambda t: (t.interval.start, t.rank))[:1]

@@ -3,7 +3,7 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.motion.tasks.spans import Spans
+from azee.motion.tasks.interval_index import IntervalIndex
 from azee.score.interval import Interval
 
 times = st.integers(0, 12).map(lambda n: Fraction(n, 4))
@@ -14,13 +14,15 @@ probes = st.tuples(st.integers(-1, 26), st.integers(0, 9)).map(
 
 
 @given(st.lists(intervals, max_size=8), probes)
-def test_spans_answer_as_asking_everything_would(known: list[Interval], probe: Interval) -> None:
-    spans = Spans((span, i) for i, span in enumerate(known))
+def test_an_index_answers_as_asking_every_item_would(
+    known: list[Interval], probe: Interval
+) -> None:
+    index = IntervalIndex((span, i) for i, span in enumerate(known))
     time = probe.start
-    assert spans.at(time) == [i for i, s in enumerate(known) if s.start <= time <= s.end]
-    assert spans.all_through(probe) == [
+    assert index.at(time) == [i for i, s in enumerate(known) if s.start <= time <= s.end]
+    assert index.covering(probe) == [
         i for i, s in enumerate(known) if s.start <= probe.start and probe.end <= s.end
     ]
-    assert spans.meeting(probe) == [
+    assert index.overlapping(probe) == [
         i for i, s in enumerate(known) if s.start <= probe.end and probe.start <= s.end
     ]

@@ -9,12 +9,20 @@ from functools import cache
 import numpy as np
 import pytest
 
-from azee.motion.keys.transpath import Travel, deferred, ends, passing_limbs, sample_times, travels
+from azee.motion.keys.transpath import (
+    PathMotion,
+    boundaries_on_paths,
+    end_times,
+    limbs_on_paths,
+    path_motions,
+    sample_times,
+)
 from azee.motion.overlay.trill import oscillation
-from azee.motion.tasks.conflict import contradict
+from azee.motion.tasks.contradiction import contradict
 from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.limbs import Limbs, channel_of_constraint
-from azee.motion.tasks.timed_task import Bound, BoundScore, bind
+from azee.motion.tasks.schedule import TaskSchedule, bind
+from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
 from azee.score.score import Block, Group, Hold, Key
 from azee_rig.load import load_rig
@@ -68,7 +76,7 @@ def evaluator() -> Evaluator:
     return Evaluator(rig(), Side.RIGHT)
 
 
-def bound(*blocks: Block) -> BoundScore:
+def schedule(*blocks: Block) -> TaskSchedule:
     score = Group(max(b.interval_in_parent.end for b in blocks), blocks=blocks)
     return bind(flatten(score), rig(), evaluator().binding, Limbs.of(rig().coordinates))
 
@@ -78,8 +86,8 @@ def block(name: str, start: str, length: str, *constraints: Constraint) -> Block
     return Block(name, span, Key(F(length), constraints=constraints))
 
 
-def one(constraint: Constraint) -> Bound:
-    return bound(block("ONE", "0", "1", constraint)).all[0]
+def one(constraint: Constraint) -> TimedTask:
+    return schedule(block("ONE", "0", "1", constraint)).all[0]
 
 
 def test_every_coordinate_is_of_one_limb() -> None:
@@ -92,18 +100,18 @@ def test_every_coordinate_is_of_one_limb() -> None:
     assert limbs.touching([rig().coordinates.index["clav_L.elevation"]]) == {"arm_L"}
 
 
-def test_a_placement_claims_the_way_from_the_trunk_to_its_site() -> None:
+def test_a_placement_moves_the_limbs_from_the_trunk_to_its_site() -> None:
     assert one(Place(TIP, MIDDLE)).limbs == {"trunk", "arm_R", "index_R"}
     assert one(Place(TIP, MIDDLE)).read_limbs == frozenset()
 
 
-def test_what_a_target_hangs_on_is_read() -> None:
+def test_what_carries_a_target_is_read() -> None:
     forehead = one(Place(TIP, SitePoint(Site("FH"))))
     assert forehead.limbs == {"arm_R", "index_R"}
     assert forehead.read_limbs == {"head"}
 
 
-def test_a_gaze_reads_the_trunk_but_does_not_claim_it() -> None:
+def test_a_gaze_reads_the_trunk_but_does_not_move_it() -> None:
     gaze = one(LookAt(MIDDLE))
     assert gaze.limbs == {"eyes", "head"}
     assert gaze.read_limbs == {"trunk"}
@@ -114,7 +122,7 @@ def test_a_point_that_moves_is_dynamic_and_goes_by_minimum_jerk() -> None:
     moving = one(Place(TIP, Moving(Straight(), MIDDLE, RIGHT)))
     assert moving.dynamic
     assert [moving.phase(F(n, 2)) for n in range(3)] == [0, 0.5, 1]
-    assert moving.task(F(1, 2)).phase == 0.5
+    assert moving.ik_task(F(1, 2)).phase == 0.5
 
 
 @pytest.mark.parametrize(
@@ -136,7 +144,7 @@ def test_a_hold_keeps_a_constraint_if_it_names_its_channel(
     assert channel_of_constraint(constraint, evaluator().binding) == channel
     for channels, kept in (((channel,), 1), (("nothing",), 0)):
         hold = Block("H", Interval(F(1), F(2)), Hold(F(1), block="A", channels=channels))
-        held = bound(block("A", "0", "1", constraint), hold).all[1:]
+        held = schedule(block("A", "0", "1", constraint), hold).all[1:]
         assert len(held) == kept
 
 
@@ -167,23 +175,23 @@ NRM_UP = Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP)
         (Morph("index_bend", S, 1.0), Morph("middle_bend", S, 0.2), False),
     ],
 )
-def test_contradictions_are_told_from_the_words(
+def test_contradictions_are_found_by_comparing_expressions(
     first: Constraint, second: Constraint, expected: bool
 ) -> None:
-    both = bound(block("A", "0", "1", first), block("B", "1", "1", second)).postures
+    both = schedule(block("A", "0", "1", first), block("B", "1", "1", second)).posture_tasks
     assert contradict(both[:1], both[1:], evaluator().binding) == expected
 
 
 PATH = Transpath(TIP, Straight())
 
 
-def travel(*blocks: Block) -> Travel:
-    (found,) = travels(bound(*blocks), Side.RIGHT)
+def path_motion(*blocks: Block) -> PathMotion:
+    (found,) = path_motions(schedule(*blocks), Side.RIGHT)
     return found
 
 
 def test_a_path_leads_from_the_placement_before_to_the_one_after() -> None:
-    found = travel(
+    found = path_motion(
         block("OTHER", "0", "2", Place(Site("I_TIP", W), MIDDLE)),
         block("A", "0", ".5", Place(TIP, MIDDLE)),
         block("P", ".5", "1", PATH),
@@ -191,58 +199,58 @@ def test_a_path_leads_from_the_placement_before_to_the_one_after() -> None:
     )
     assert found.before is not None
     assert found.after is not None
-    assert [found.before.requirement.path, found.after.requirement.path] == [("A",), ("B",)]
+    assert [found.before.path, found.after.path] == [("A",), ("B",)]
     assert (found.start, found.end) == (F(1, 2), F(3, 2))
-    assert [found.steers(t) for t in (F(1, 2), F(1), F(3, 2))] == [False, True, False]
+    assert [found.controls(t) for t in (F(1, 2), F(1), F(3, 2))] == [False, True, False]
     assert found.progress(F(1)) == 0.5
 
 
 def test_a_placement_that_overlaps_a_path_holds_its_site_as_long_as_it_lasts() -> None:
-    found = travel(
+    found = path_motion(
         block("A", "0", ".6", Place(TIP, MIDDLE)),
         block("P", ".5", "1", PATH),
         block("B", "1.4", ".6", Place(TIP, RIGHT)),
     )
     assert (found.start, found.end) == (F("0.6"), F("1.4"))
-    assert not found.steers(F("0.55"))
+    assert not found.controls(F("0.55"))
 
 
 def test_a_site_waits_where_placements_leave_a_gap_to_its_path() -> None:
-    found = travel(
+    found = path_motion(
         block("A", "0", ".5", Place(TIP, MIDDLE)),
         block("P", ".7", ".6", PATH),
         block("B", "1.5", ".5", Place(TIP, RIGHT)),
     )
     assert (found.start, found.end) == (F("0.7"), F("1.3"))
     assert found.between == Interval(F("0.5"), F("1.5"))
-    assert found.steers(F("0.7"))
+    assert found.controls(F("0.7"))
     assert found.progress(F("0.7")) == 0
 
 
 def test_keyframes_on_a_path_wait_for_its_ends() -> None:
-    score = bound(
+    found = schedule(
         block("A", "0", ".5", Place(TIP, MIDDLE)),
         block("P", ".5", "1", PATH),
         block("NOD", ".9", ".2", Rotate(Bone("head"), UP, 0.1)),
         block("B", "1.5", ".5", Place(TIP, RIGHT)),
     )
-    known = travels(score, Side.RIGHT)
-    assert ends(known) == {F("0.5"), F("1.5")}
-    assert deferred(known, (k.time for k in score.timeline.keyframes)) == {F("0.9"), F("1.1")}
+    known = path_motions(found, Side.RIGHT)
+    assert end_times(known) == {F("0.5"), F("1.5")}
+    assert boundaries_on_paths(known, found) == {F("0.9"), F("1.1")}
 
 
 def test_what_follows_a_moving_hand_moves() -> None:
     elbow_on_tip = Place(Site("I_TIP", W), SitePoint(Site("EL", S)))
-    score = bound(
+    found = schedule(
         block("A", "0", ".5", Place(TIP, MIDDLE)),
         block("P", ".5", "1", PATH),
         block("F", "0", "2", elbow_on_tip),
         block("B", "1.5", ".5", Place(TIP, RIGHT)),
     )
-    known = travels(score, Side.RIGHT)
-    followers = [b for b in score.postures if b.requirement.path == ("F",)]
-    assert {"arm_R", "arm_L", "index_L"} <= passing_limbs(F(1), followers, known)
-    assert passing_limbs(F(1, 2), followers, known) == frozenset()
+    known = path_motions(found, Side.RIGHT)
+    followers = [t for t in found.posture_tasks if t.path == ("F",)]
+    assert {"arm_R", "arm_L", "index_L"} <= limbs_on_paths(F(1), followers, known)
+    assert limbs_on_paths(F(1, 2), followers, known) == frozenset()
 
 
 def test_paths_are_sampled_by_length_and_by_turns() -> None:
@@ -265,7 +273,7 @@ def test_a_trill_turns_its_bone_about_its_axis(bone: str) -> None:
     trill = one(Trill(of, Dir(of), 5.0, 0.1))
     q = rig().coordinates.idle
     swing = oscillation(trill, q, evaluator())
-    assert swing.reach > 0.9
+    assert swing.turnable > 0.9
     node = evaluator().binding.bone(of).node
     before, after = (rig().chain.frames(p).rotations[node] for p in (q, q + 0.01 * swing.direction))
     turned = after @ before.T

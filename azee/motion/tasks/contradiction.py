@@ -1,32 +1,37 @@
-"""Which tasks no single posture can meet, told from their symbols alone."""
+"""Which tasks no single posture can meet, decided from their symbols alone."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from azee.motion.tasks.timed_task import Bound
+from azee.motion.tasks.timed_task import TimedTask
 from azee_solver.binding import Binding
 from azee_solver.constraint import Constraint, Look, LookAt, Morph, Orient, Place, Relation, Rotate
 
 _TINY_RAD = 1e-9
 
 
-def contradict(ending: Iterable[Bound], starting: Iterable[Bound], binding: Binding) -> bool:
-    """Whether two sets of requirements say different things of one site, axis or joint.
+def contradict(
+    ending: Iterable[TimedTask], starting: Iterable[TimedTask], binding: Binding
+) -> bool:
+    """Whether two sets of tasks give one site, axis or joint different targets.
 
-    A contradiction is certain only in what the words say: two different expressions may still
-    mean the same point. What this misses, the solver finds.
+    Targets are compared as expressions, without a posture. Two different expressions may mean the
+    same point: then the blocks are separated though one posture could serve both. The same
+    expression never contradicts itself. What this does not find, the solver does.
     """
-    first, second = [b.constraint for b in ending], [b.constraint for b in starting]
-    said = dict(_subjects(first, binding))
+    first, second = [t.constraint for t in ending], [t.constraint for t in starting]
+    targets = dict(_targets(first, binding))
     return any(
-        subject in said and said[subject] != claim for subject, claim in _subjects(second, binding)
+        subject in targets and targets[subject] != target
+        for subject, target in _targets(second, binding)
     ) or _morphs_differ(first, second, binding)
 
 
-def _subjects(
+def _targets(
     constraints: Iterable[Constraint], binding: Binding
 ) -> Iterable[tuple[tuple[str, ...], object]]:
+    """Yield what each constraint acts on, and the target that it gives it."""
     for constraint in constraints:
         match constraint:
             case Place(site, point, distance):

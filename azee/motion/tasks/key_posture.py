@@ -1,4 +1,4 @@
-"""Solved key postures, and who solves them."""
+"""Key postures, and the interface of what solves them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.tasks.limbs import TRUNK
-from azee.motion.tasks.timed_task import Bound, limbs_asked
+from azee.motion.tasks.timed_task import TimedTask, limbs_used
 from azee_solver.task import Task
 
 if TYPE_CHECKING:
@@ -22,24 +22,24 @@ Array = NDArray[np.float64]
 
 
 class Search(Enum):
-    """How far a solver looks."""
+    """How a solver searches."""
 
-    WIDE = "wide"
-    """From several postures, for the best there is."""
-    NEAR = "near"
-    """From `start` alone: on the way of a movement the next posture must follow from the last."""
+    GLOBAL = "global"
+    """From several starts, for the best posture that any of them leads to."""
+    LOCAL = "local"
+    """From `start` alone: inside a movement each posture must be near the one before."""
 
 
 class PostureSolver(Protocol):
-    """Whatever turns the tasks of one moment into a posture."""
+    """An inverse-kinematics solver: it turns the tasks of one moment into a posture."""
 
     def __call__(
         self,
-        tasks: Sequence[Task],
+        ik_tasks: Sequence[Task],
         *,
         start: Array,
         reference: Array,
-        search: Search = Search.WIDE,
+        search: Search = Search.GLOBAL,
         fixed: frozenset[int] = frozenset(),
     ) -> SolveReport:
         """Return the posture nearest to `reference` that meets the tasks, found from `start`.
@@ -59,44 +59,45 @@ class Origin(Enum):
     PATH = "path"
     """A sample of a controlled movement."""
     ADDED = "added"
-    """Interpolation would have left a constraint here."""
+    """The interpolated posture would not have met a constraint here."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class KeyPosture:
-    """A posture at an instant, and the limbs that it fixes then.
+    """A posture at an instant, and the limbs that it is a key of.
 
-    time: on the score's time line. coordinates: (V,). limbs: those it is a key of. passing: those
-    of them that move through it without stopping. bounds: the requirements it serves. tasks:
-    what the solver was given. report: its answer; for a posture that was taken over from an
-    earlier instant with the same tasks, the answer given then, and `reused` is set.
+    time: on the score's time line. coordinates: (V,) radians. limbs: the limbs that it keys.
+    passing: those of them that move through it without stopping. timed_tasks: the tasks of the
+    score that it serves. ik_tasks: what the solver was given. report: the solver's answer; where
+    `reused` is set, the answer that an earlier instant got for the same tasks.
     """
 
     time: Fraction
     coordinates: Array
     limbs: frozenset[str]
     passing: frozenset[str]
-    bounds: tuple[Bound, ...]
-    tasks: tuple[Task, ...]
+    timed_tasks: tuple[TimedTask, ...]
+    ik_tasks: tuple[Task, ...]
     report: SolveReport
     origin: Origin
     reused: bool = False
 
     def holds(self, limb: str, needed: frozenset[str]) -> bool:
-        """Whether a limb stays where this posture has it while others are needed.
+        """Whether a limb stays where this posture has it while other limbs are needed.
 
-        A limb that no requirement asked for was moved by the solver to suit the trunk, as a head
-        is levelled over a bent one: it stays as long as the trunk does.
+        A keyed limb that no task uses was moved by the solver to suit the trunk, as a head is
+        levelled over a bent one. It stays as long as the trunk is needed.
         """
         return limb in needed or (
-            TRUNK in needed and limb in self.limbs and limb not in limbs_asked(self.bounds)
+            TRUNK in needed and limb in self.limbs and limb not in limbs_used(self.timed_tasks)
         )
 
     @property
     def met(self) -> bool:
         """Whether every task is within its tolerance."""
-        return all(c.met for c in self.report.constraints)
+        return self.unmet_count == 0
 
-    def misses(self) -> int:
-        """Count the tasks out of tolerance."""
+    @property
+    def unmet_count(self) -> int:
+        """How many tasks are out of tolerance."""
         return sum(not c.met for c in self.report.constraints)

@@ -1,4 +1,4 @@
-"""Detours, and what they lead round."""
+"""Via points, and the collisions that they avoid."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from azee.motion.curves.avoidance import Clearing
-from azee.motion.curves.capsule_overlap import Overlaps
-from azee.motion.curves.limb_curves import LimbKey, LimbTrack
+from azee.motion.curves.avoidance import CollisionAvoidance
+from azee.motion.curves.capsule_overlap import CapsuleOverlaps
+from azee.motion.curves.limb_curves import LimbCurve, LimbKey
 from azee.motion.curves.movement import Movement
-from azee.motion.curves.via_points import Swerve
+from azee.motion.curves.via_points import ViaPoint
 from azee.motion.tasks.flatten import flatten
+from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import Limbs
-from azee.motion.tasks.spans import Spans
-from azee.motion.tasks.timed_task import bind
+from azee.motion.tasks.schedule import bind
 from azee.score.interval import Interval
 from azee.score.score import Key
 from azee_rig.load import load_rig
@@ -29,19 +29,21 @@ from azee_solver.geometry import Side
 
 
 @given(st.floats(0.0, 1.0), st.floats(0.1, 2.0))
-def test_a_swerve_begins_and_ends_at_rest_and_reaches_its_peak(peak: float, length: float) -> None:
-    swerve = Swerve(np.array([0]), np.array([1.0]), 1.0, 1.0 + length, peak)
+def test_a_via_point_sets_in_and_ends_without_a_jerk_and_reaches_its_peak(
+    peak: float, length: float
+) -> None:
+    via_point = ViaPoint(np.array([0]), np.array([1.0]), 1.0, 1.0 + length, peak)
     times = np.linspace(1.0, 1.0 + length, 2001)
-    share = swerve.share(times)
-    assert np.all((share >= 0) & (share <= 1 + 1e-12))
-    assert share.max() == pytest.approx(1.0, abs=1e-4)
-    assert 0.19 <= (times[share.argmax()] - 1.0) / length <= 0.81
+    weight = via_point.weight(times)
+    assert np.all((weight >= 0) & (weight <= 1 + 1e-12))
+    assert weight.max() == pytest.approx(1.0, abs=1e-4)
+    assert 0.19 <= (times[weight.argmax()] - 1.0) / length <= 0.81
     step = length / 2000
-    for end in (share[:4], share[:-5:-1]):
+    for end in (weight[:4], weight[:-5:-1]):
         assert abs(np.diff(end)[0]) < 1e-6
         assert abs(np.diff(end, 2)[0]) / step**2 < 40.0 / length**2
     outside = np.zeros((2, 1))
-    swerve.add_to(outside, np.array([0.5, 1.0 + length + 0.1]))
+    via_point.add_to(outside, np.array([0.5, 1.0 + length + 0.1]))
     assert not outside.any()
 
 
@@ -63,35 +65,35 @@ def from_raised_to_behind() -> Movement:
     ):
         before[index[name]], beside[index[name]] = math.radians(a), math.radians(b)
     keys = (before, beside)
-    tracks = {
-        limb: LimbTrack(
+    curves = {
+        limb: LimbCurve(
             tuple(LimbKey(float(i), q[members]) for i, q in enumerate(keys)),
             rig.coordinates.idle[members],
         )
         for limb, members in limbs.members.items()
     }
-    return Movement(rig.coordinates, limbs, tracks)
+    return Movement(rig.coordinates, limbs, curves)
 
 
-def clearing(*holders: tuple[Interval, frozenset[str]]) -> Clearing:
+def avoidance(*in_use: tuple[Interval, frozenset[str]]) -> CollisionAvoidance:
     rig = load_rig()
     nothing = flatten(Key(Fraction(1)))
-    score = bind(nothing, rig, body().binding, Limbs.of(rig.coordinates))
-    return Clearing(body(), score, Spans(holders), Overlaps(body()))
+    schedule = bind(nothing, rig, body().binding, Limbs.of(rig.coordinates))
+    return CollisionAvoidance(body(), schedule, IntervalIndex(in_use), CapsuleOverlaps(body()))
 
 
 TIMES = np.linspace(0.0, 1.0, 61)
 
 
 def deepest(movement: Movement, times: NDArray[np.float64] = TIMES) -> float:
-    overlaps = Overlaps(body())
-    depth = overlaps.depth(movement.sample(times), overlaps.reach(()))
+    overlaps = CapsuleOverlaps(body())
+    depth = overlaps.depths(movement.sample(times), overlaps.axis_distances(()))
     return float(depth[:, ~overlaps.same_hand].max())
 
 
-def test_a_way_through_the_body_leads_round_it_between_the_same_keys() -> None:
+def test_a_movement_through_the_body_is_led_round_it_between_the_same_keys() -> None:
     straight = from_raised_to_behind()
-    round_it = clearing().cleared(straight)
+    round_it = avoidance().avoid_collisions(straight)
     ends = np.array([0.0, 1.0])
     assert round_it.sample(ends) == pytest.approx(straight.sample(ends))
     allowed = max(0.0, deepest(straight, ends))
@@ -99,6 +101,6 @@ def test_a_way_through_the_body_leads_round_it_between_the_same_keys() -> None:
     assert deepest(round_it) < allowed + 0.003
 
 
-def test_what_a_block_needs_does_not_swerve() -> None:
+def test_a_limb_that_a_block_needs_gets_no_via_point() -> None:
     needed = (Interval(Fraction(0), Fraction(1)), frozenset(("arm_R",)))
-    assert clearing(needed).cleared(from_raised_to_behind()).swerves == ()
+    assert avoidance(needed).avoid_collisions(from_raised_to_behind()).via_points == ()

@@ -1,4 +1,4 @@
-"""Looking up what lasts at an instant, without asking everything there is."""
+"""An index of intervals: what lasts at an instant, found without asking every item."""
 
 from __future__ import annotations
 
@@ -12,46 +12,45 @@ from azee.score.interval import Interval
 T = TypeVar("T")
 
 
-class Spans(Generic[T]):
-    """Things that last for an interval each, both ends included.
+class IntervalIndex(Generic[T]):
+    """Items that last for an interval each, both ends included.
 
-    The instants at which anything starts or ends cut the time line into stretches; each keeps
-    what overlaps it, so that asking for an instant costs as much as the answer is long.
+    The starts and ends of all intervals cut the time line into stretches. Each stretch lists the
+    items that last in it, so a query takes as long as its answer is.
     """
 
     def __init__(self, items: Iterable[tuple[Interval, T]]) -> None:
         self._entries = [*items]
-        self.instants: tuple[Fraction, ...] = tuple(
+        self._instants: tuple[Fraction, ...] = tuple(
             sorted({t for span, _ in self._entries for t in (span.start, span.end)})
         )
-        """All starts and ends, in order."""
-        position = {t: i for i, t in enumerate(self.instants)}
+        position = {t: i for i, t in enumerate(self._instants)}
         self._ends = [(position[span.start], position[span.end]) for span, _ in self._entries]
-        self._stretches: list[list[int]] = [[] for _ in self.instants]
+        self._stretches: list[list[int]] = [[] for _ in self._instants]
         for k, (first, last) in enumerate(self._ends):
             for i in range(first, last + 1):
                 self._stretches[i].append(k)
 
     def at(self, time: Fraction) -> list[T]:
         """Return what lasts at an instant, in the order given."""
-        return self.all_through(Interval(time, time))
+        return self.covering(Interval(time, time))
 
-    def all_through(self, interval: Interval) -> list[T]:
+    def covering(self, interval: Interval) -> list[T]:
         """Return what lasts from the start of an interval to its end, in the order given."""
-        i = bisect_right(self.instants, interval.start) - 1
+        i = bisect_right(self._instants, interval.start) - 1
         if i < 0:
             return []
-        end = bisect_left(self.instants, interval.end, lo=i)
+        end = bisect_left(self._instants, interval.end, lo=i)
         return [self._entries[k][1] for k in self._stretches[i] if self._ends[k][1] >= end]
 
-    def meeting(self, interval: Interval) -> list[T]:
+    def overlapping(self, interval: Interval) -> list[T]:
         """Return what shares an instant with an interval, in the order given."""
-        return [item for _, item in self.entries_meeting(interval)]
+        return [item for _, item in self.overlapping_entries(interval)]
 
-    def entries_meeting(self, interval: Interval) -> list[tuple[Interval, T]]:
+    def overlapping_entries(self, interval: Interval) -> list[tuple[Interval, T]]:
         """Return what shares an instant with an interval, each with its own interval."""
-        start = bisect_left(self.instants, interval.start)
-        end = bisect_right(self.instants, interval.end) - 1
+        start = bisect_left(self._instants, interval.start)
+        end = bisect_right(self._instants, interval.end) - 1
         near = {k for stretch in self._stretches[max(0, start - 1) : end + 1] for k in stretch}
         return [
             self._entries[k]

@@ -1,0 +1,150 @@
+"""The schedule of a body: all timed tasks of a score, sorted by what carries them out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from azee.motion.tasks.flatten import Timeline
+from azee.motion.tasks.interval_index import IntervalIndex
+from azee.motion.tasks.limbs import Limbs, channel_of_constraint, limb_of_constraint
+from azee.motion.tasks.requirement import Requirement
+from azee.motion.tasks.timed_task import TimedTask
+from azee_rig.rig import Rig
+from azee_solver.anatomy import anatomy
+from azee_solver.binding import Binding
+from azee_solver.constraint import Constraint, LookAt, Morph, Place, Rotate, Transpath, Trill
+from azee_solver.footprint import footprint
+from azee_solver.geometry import (
+    Between,
+    FreePoint,
+    JointPoint,
+    Moving,
+    NamedPoint,
+    Point,
+    SitePoint,
+    VTranslate,
+    WorldPoint,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class TaskSchedule:
+    """All that a score requires of one body.
+
+    timeline: the flattened score. posture_tasks: what key postures meet. transpaths: paths of
+    sites between placements. trills, facial_morphs: what is laid on the finished movement.
+    """
+
+    timeline: Timeline
+    posture_tasks: tuple[TimedTask, ...]
+    transpaths: tuple[TimedTask, ...]
+    trills: tuple[TimedTask, ...]
+    facial_morphs: tuple[TimedTask, ...]
+
+    @cached_property
+    def in_force(self) -> IntervalIndex[TimedTask]:
+        """The tasks of postures, by when they hold."""
+        return IntervalIndex((t.interval, t) for t in self.posture_tasks)
+
+    @cached_property
+    def transpaths_in_force(self) -> IntervalIndex[TimedTask]:
+        """The transpaths, by when they hold."""
+        return IntervalIndex((t.interval, t) for t in self.transpaths)
+
+    @cached_property
+    def morphs_of_same_hand(self) -> dict[TimedTask, tuple[TimedTask, ...]]:
+        """For every skeletal morph, those of the same hand that overlap it in time, itself too.
+
+        Angles of morphs add up where they move the same coordinates, and the solver adapts a
+        thumb to the fingers around it: the target of one depends on the others.
+        """
+        morphs = [t for t in self.posture_tasks if isinstance(t.constraint, Morph)]
+        index = IntervalIndex((t.interval, t) for t in morphs)
+        near = ((t, index.overlapping(t.interval)) for t in morphs)
+        return {
+            t: tuple(o for o in others if o.moves & t.moves or o.limb[-2:] == t.limb[-2:])
+            for t, others in near
+        }
+
+    @property
+    def body_tasks(self) -> tuple[TimedTask, ...]:
+        """What moves the skeleton: everything but the face."""
+        return (*self.posture_tasks, *self.transpaths, *self.trills)
+
+    @cached_property
+    def all(self) -> tuple[TimedTask, ...]:
+        """Everything, in the order of the score."""
+        return tuple(sorted((*self.body_tasks, *self.facial_morphs), key=lambda t: t.rank))
+
+
+def bind(timeline: Timeline, rig: Rig, binding: Binding, limbs: Limbs) -> TaskSchedule:
+    """Bind every requirement to a body; of a hold's requirements, keep those in its channels.
+
+    Raises: BindingError: the rig lacks a bone, a site or a morph.
+    """
+    kinds: dict[type, list[TimedTask]] = {Transpath: [], Trill: [], Morph: [], object: []}
+    for requirement in timeline.requirements:
+        constraint = requirement.constraint
+        binding.check(constraint)
+        channels = requirement.held_channels
+        if channels is not None and channel_of_constraint(constraint, binding) not in channels:
+            continue
+        task = _timed_task(requirement, rig, binding, limbs)
+        facial = isinstance(constraint, Morph) and not binding.is_skeletal(constraint)
+        outside_postures = isinstance(constraint, Transpath | Trill) or facial
+        kinds[type(constraint) if outside_postures else object].append(task)
+    return TaskSchedule(
+        timeline,
+        posture_tasks=tuple(kinds[object]),
+        transpaths=tuple(kinds[Transpath]),
+        trills=tuple(kinds[Trill]),
+        facial_morphs=tuple(kinds[Morph]),
+    )
+
+
+def _timed_task(requirement: Requirement, rig: Rig, binding: Binding, limbs: Limbs) -> TimedTask:
+    constraint = requirement.constraint
+    limb = limb_of_constraint(constraint, binding)
+    body = anatomy(rig.chain, rig.coordinates)
+    moves, affected = frozenset[int](), frozenset[int]()
+    if not isinstance(constraint, Morph):
+        reading = footprint(_posture_equivalent(constraint), binding)
+        moves, affected = reading.movers(body), reading.affected(body)
+        if limb in _HEAD_AND_EYES:
+            moves &= frozenset(v for n in _HEAD_AND_EYES for v in limbs.members.get(n, ()))
+    elif binding.is_skeletal(constraint):
+        moves = affected = frozenset(binding.preset(constraint))
+    reads = affected - moves
+    dynamic = isinstance(constraint, Place | LookAt) and has_moving(constraint.point)
+    return TimedTask(
+        requirement, limb, moves, reads, limbs.touching(moves), limbs.touching(reads), dynamic
+    )
+
+
+_HEAD_AND_EYES = ("head", "eyes")
+"""Limbs whose tasks never move the trunk, only read it: a gaze does not keep a body bent."""
+
+
+def _posture_equivalent(constraint: Constraint) -> Constraint:
+    """Return a constraint on one posture that depends on the same parts of the body."""
+    match constraint:
+        case Transpath(site=site, path=path):
+            return Place(site, Moving(path, WorldPoint(0, 0, 0), WorldPoint(0, 0, 0)))
+        case Trill(bone=bone, axis=axis):
+            return Rotate(bone, axis, 0.0)
+        case _:
+            return constraint
+
+
+def has_moving(point: Point) -> bool:
+    """Whether a point moves on a path of its own."""
+    match point:
+        case Moving():
+            return True
+        case VTranslate(point=inner):
+            return has_moving(inner)
+        case Between(start=start, end=end):
+            return has_moving(start) or has_moving(end)
+        case FreePoint() | NamedPoint() | SitePoint() | JointPoint() | WorldPoint():
+            return False

@@ -25,7 +25,6 @@ from azee.motion.tasks.key_posture import PostureSolver, Search
 from azee.motion.tasks.key_selection import MODES, KeySelection, Mode
 from azee.motion.tasks.limbs import Limbs
 from azee.motion.tasks.schedule import TaskSchedule, bind
-from azee.motion.tasks.timed_task import TimedTask
 from azee.motion.tasks.tracks import Track, tracks
 from azee.quality.measures import block_times, peaks, penetrations
 from azee.quality.motion_report import MotionReport, constraint_results, limit_excess
@@ -97,13 +96,9 @@ def animate(
     )
 
     # 11. Sample the movement at the clip's frames, and add trills, face and idle motion.
-    lead, exact_times = _frame_times(score.duration, planned.movement, schedule, rate)
-    times, lead_s = np.array([float(t) for t in exact_times]), float(lead)
+    times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)
     q = planned.movement.sample(times)
-    trills = [
-        oscillation(t, _posture_amid(t, planned.movement), evaluator) for t in schedule.trills
-    ]
-    q, trill_shortfalls = add_trills(q, times, trills, rig.coordinates)
+    q, trill_shortfalls = _with_trills(q, times, schedule, planned.movement, evaluator)
     weights = face_weights(
         schedule.facial_morphs, rig.face_morphs, tuple(rig.units), dominant, times
     )
@@ -155,8 +150,8 @@ def _default_solver(rig: Rig, dominant: Side) -> PostureSolver:
 
 def _frame_times(
     score_s: Fraction, movement: Movement, schedule: TaskSchedule, rate: Fraction
-) -> tuple[Fraction, list[Fraction]]:
-    """Return the lead before the score's zero and all frames on the score's time line.
+) -> tuple[Array, float]:
+    """Return all frames on the score's time line, (T,) seconds, and the lead before its zero.
 
     The lead is a whole number of frames, so that the score starts on one.
     """
@@ -165,13 +160,22 @@ def _frame_times(
         last = max(last, float(score_s) + RAMP_S)
     before = math.ceil((BEFORE_S - first) * rate)
     after = math.ceil((last + AFTER_S) * rate)
-    return before / rate, [n / rate for n in range(-before, after + 1)]
+    return np.array([float(n / rate) for n in range(-before, after + 1)]), float(before / rate)
 
 
-def _posture_amid(task: TimedTask, movement: Movement) -> Array:
-    """Posture in the middle of a block, (V,)."""
-    middle = float(task.interval.start + task.interval.end) / 2
-    return np.asarray(movement.sample(np.array([middle]))[0])
+def _with_trills(
+    q: Array, times: Array, schedule: TaskSchedule, movement: Movement, evaluator: Evaluator
+) -> tuple[Array, dict[int, float]]:
+    """Add trills to coordinates (T, V); return also by how much they fall short, by rank.
+
+    A trill turns the bone as its joints can in the posture in the middle of its block.
+    """
+    trills = []
+    for task in schedule.trills:
+        middle = float(task.interval.start + task.interval.end) / 2
+        posture = np.asarray(movement.sample(np.array([middle]))[0])
+        trills.append(oscillation(task, posture, evaluator))
+    return add_trills(q, times, trills, evaluator.rig.coordinates)
 
 
 def _with_idle_motion(

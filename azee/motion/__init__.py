@@ -1,1 +1,1 @@
-"""From scores to motion: keyframes, curves and clips."""
+"""From a score to the movement of a body: tasks, key postures, curves, overlays."""

@@ -1,1 +1,1 @@
-"""What a movement is worth: reports and measures."""
+"""The quality of a movement: reports and measures."""

@@ -1,1 +1,1 @@
-"""The movement between key postures."""
+"""Curves: the movement between key postures."""

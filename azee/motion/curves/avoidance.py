@@ -3,7 +3,8 @@
 Between keys a limb moves straight in joint space, which may lead a hand through the chest or a
 thumb through a finger. There the limbs that carry the overlapping capsules, and that nothing needs
 at that time, get via points (see `ViaPoint`): the smallest offsets of their coordinates with which
-all pairs of capsules keep their distance along the whole way. Keys and times stay as they are.
+all pairs of capsules keep their distance on the whole stretch between the keys. Keys and their
+times stay as they are.
 
 The offset c, (n,), is found by damped least squares. With d_tp(c) the depth of pair p at sample t,
 a_tp the depth that it may have there, and m = `OFFSET_WEIGHT_M`, it minimises
@@ -41,24 +42,24 @@ Array = NDArray[np.float64]
 PASSES = 4
 """How often the movement is searched for collisions: an offset may cause another one."""
 SAMPLE_S = 1 / 50
-"""Time between the postures in which collisions are looked for."""
+"""Time between the postures in which collisions are searched."""
 SAMPLES_AT_ONCE = 240
 TRIGGER_SHARE = 0.3
 """Pairs collide when nearer than this share of their clearance."""
 LEAST_APPROACH_M = 0.002
-"""A pair that comes nearer than at the ends of its way by no more than this is left alone."""
+"""Pairs that come nearer than at the ends of the stretch by less than this do not collide."""
 TOUCH_WINDOW_S = Fraction(1, 2)
 """A touch that the score asks for is no collision this long before and after."""
 
 FEWEST_SAMPLES, MOST_SAMPLES = 8, 20
-"""Samples on a way for which an offset is sought, its ends not counted."""
+"""Samples on a stretch for which an offset is sought, its ends not counted."""
 CONSIDERED_M = 0.025
-"""Pairs that are farther apart all along the way are not considered."""
+"""Pairs that are farther apart in all samples are not considered."""
 SHORT_S, LONG_S, LEAST_CLEARANCE_SHARE = 0.15, 0.45, 0.1
-"""Ways of `LONG_S` keep the whole clearance, ways of `SHORT_S` this share of it, since a wide
-offset in a short time is a jerk."""
+"""In stretches of `LONG_S` pairs keep the whole clearance, in those of `SHORT_S` this share of it,
+since a wide offset in a short time is a jerk."""
 TAPER = 0.35
-"""Share of the way over which pairs that are near at its end reach their clearance."""
+"""Share of the stretch in which pairs that are near at its end reach their clearance."""
 ALLOWED_SHORTFALL = 0.25
 """The search ends when no pair lacks more than this share of the least clearance."""
 WORTHWHILE = 0.7
@@ -222,9 +223,9 @@ def _merged(
 class _OffsetSearch:
     """Damped least squares for the smallest offset with which all pairs keep their distance.
 
-    q: (T, V) samples of the way. members: (n,) coordinates to offset. weights: (T, n) share of the
-    offset at each sample. axis_distances: (P,) metres. clearance_share: how much of the clearance
-    to keep, as there is time for it. lower, upper: (V,) limits.
+    q: (T, V) samples of the stretch. members: (n,) coordinates to offset. weights: (T, n) share of
+    the offset at each sample. axis_distances: (P,) metres. clearance_share: how much of the
+    clearance to keep, as there is time for it. lower, upper: (V,) limits.
     """
 
     q: Array
@@ -264,10 +265,10 @@ class _OffsetSearch:
         return c if float(np.max(error)) < WORTHWHILE * error_before else None
 
     def _allowed_depths(self, depths: Array, clearance: Array) -> Array:
-        """Return the depths that pairs may have along the way, (T, P) metres.
+        """Return the depths that pairs may have in the samples, (T, P) metres.
 
-        Minus the clearance; but a pair that is nearer at an end of the way may be so near beside
-        that end, and comes apart by minimum jerk over the share `TAPER` of the way.
+        Minus the clearance; but a pair that is nearer at an end of the stretch may be so near
+        beside that end, and reaches the clearance by minimum jerk within the share `TAPER`.
         """
         ends = np.maximum(depths[[0, -1]], -clearance)
         along = np.linspace(0.0, 1.0, len(self.q))[:, None]

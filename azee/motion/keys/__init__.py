@@ -1,1 +1,1 @@
-"""The postures that a movement passes through."""
+"""Key postures: those that a movement passes through."""

@@ -78,7 +78,7 @@ class PathKeys:
         self._solve(self._on_frames(samples), joined, Origin.PATH)
 
     def sample_moving_targets(self) -> None:
-        """Add keys at even steps along the way of every moving target."""
+        """Add keys at even steps of the way that every moving target takes."""
         tasks = [t for t in self.in_between.monitor.schedule.posture_tasks if t.dynamic]
         if not tasks:
             return

@@ -80,7 +80,7 @@ def plan(
     # 7. Solve the boundaries that lie on paths.
     keys.solve_deferred(deferred, joined)
 
-    # 8. Add keys along paths and along the ways of moving targets.
+    # 8. Add keys at even steps along paths and behind moving targets.
     keys.sample_paths(joined)
     keys.sample_moving_targets()
 

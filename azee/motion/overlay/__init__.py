@@ -1,1 +1,1 @@
-"""What is laid on the movement: face, trills, breathing and blinking, labels."""
+"""Overlays: what is added to the movement: trills, face, idle motion, and labels of the blocks."""

@@ -1,1 +1,1 @@
-"""What a score asks of the body, and when."""
+"""Tasks: what a score requires of the body, and when."""

@@ -1,3 +1,4 @@
+import math
 from fractions import Fraction
 
 import numpy as np
@@ -6,12 +7,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from azee.clip.spline import minimum_jerk
 from azee.motion.curves.limb_curves import (
+    CALM_RAD_S2,
+    CALM_RAD_S3,
     DIRECT_WITHIN_S,
+    LONGEST_CALM_S,
     LONGEST_S,
     SHORTEST_S,
     LimbCurve,
     LimbKey,
+    calm_transition_s,
     limb_curve,
     transition_s,
 )
@@ -40,6 +46,24 @@ def test_transitions_from_and_to_neutral_last_longer_the_farther_they_lead() -> 
     assert ways == sorted(ways)
     assert ways[0] == SHORTEST_S
     assert ways[-1] == LONGEST_S
+
+
+def test_a_quick_transition_by_forty_degrees_takes_the_mean_of_shortest_and_longest() -> None:
+    turned = np.array([0.0, math.radians(-40.0)])
+    assert transition_s(NEUTRAL, turned) == pytest.approx((SHORTEST_S + LONGEST_S) / 2)
+
+
+def test_a_calm_transition_keeps_acceleration_and_jerk_within_their_bounds() -> None:
+    tau = np.linspace(0.0, 1.0, 20_001)
+    for degrees in (20.0, 60.0):
+        turn = math.radians(degrees)
+        duration = calm_transition_s(NEUTRAL, np.array([turn, 0.0]))
+        assert SHORTEST_S < duration < LONGEST_CALM_S
+        q, step = turn * minimum_jerk(tau), duration * (tau[1] - tau[0])
+        acceleration = np.abs(np.diff(q, 2)).max() / step**2
+        jerk = np.abs(np.diff(q, 3)).max() / step**3
+        shares = acceleration / CALM_RAD_S2, jerk / CALM_RAD_S3
+        assert max(shares) == pytest.approx(1.0, rel=1e-2)
 
 
 def test_between_two_keys_a_limb_moves_straight_by_minimum_jerk() -> None:

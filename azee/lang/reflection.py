@@ -14,15 +14,48 @@ from typing import Any
 
 from azee.score.score import Group, Key, Score
 from azee_grammar import vocabulary
-from azee_solver.constraint import Constraint, Morph, Origin, Rotate
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Origin,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
 from azee_solver.geometry import (
+    Arc,
+    Between,
+    Circle,
     Cross,
+    Dir,
     FreePoint,
+    JointPoint,
+    Moving,
     NamedPoint,
+    Nrm,
+    Opp,
+    Out,
+    Path,
+    Point,
     Rotated,
+    Scale,
     Side,
     SigningSpace,
+    SitePoint,
+    Straight,
+    Through,
+    Towards,
+    Unit,
+    VDiff,
     Vec,
+    Vector,
+    VSum,
+    VTranslate,
+    WorldPoint,
 )
 
 
@@ -97,27 +130,41 @@ class Mirror(Change):
         return _SWAPPED_PLACES.get(place, place)
 
     def constraint(self, constraint: Constraint) -> Constraint:
-        """Return the mirror image; rotations change their sense."""
-        if isinstance(constraint, Morph) and constraint.side is None:
-            return replace(constraint, name=_other_morph(constraint.name))
-        changed: Constraint = self.rebuilt(constraint)
-        if isinstance(changed, Rotate):
-            return replace(changed, angle_rad=-changed.angle_rad)
+        """Return the mirror image; rotations change their sense, trills go to both sides alike."""
+        changed: Constraint
+        match constraint:
+            case Morph(name=name, side=None):
+                changed = replace(constraint, name=_other_morph(name))
+            case Rotate(angle_rad=angle):
+                changed = replace(self.rebuilt(constraint), angle_rad=-angle)
+            case Place() | Orient() | Look() | LookAt() | Morph() | Trill() | Transpath():
+                changed = self.rebuilt(constraint)
         return changed
 
     def node(self, node: Any) -> Any:
         """Return the mirror image of a part."""
+        if isinstance(node, Vector | Point | Path):
+            return self._geometry(node)
+        return Change.node(self, node)
+
+    def _geometry(self, node: Vector | Point | Path) -> Any:
         match node:
-            case Vec(x=x):
-                return replace(node, x=-x if x else x)
-            case FreePoint(x=x):
+            case Vec(x=x) | FreePoint(x=x) | WorldPoint(x=x):
                 return replace(node, x=-x if x else x)
             case Cross(left=left, right=right):
                 return Cross(self.node(right), self.node(left))
             case Rotated(angle_rad=angle):
                 return replace(self.rebuilt(node), angle_rad=-angle)
-            case _:
-                return Change.node(self, node)
+            case Circle(turns=turns):
+                return replace(self.rebuilt(node), turns=-turns)
+            case NamedPoint(place):
+                return NamedPoint(self.place(place))
+            case Out() | Dir() | Nrm() | Opp() | Unit() | Scale() | VSum() | VDiff() | Towards():
+                return self.rebuilt(node)
+            case SitePoint() | JointPoint() | VTranslate() | Between() | Moving():
+                return self.rebuilt(node)
+            case Straight() | Arc() | Through():
+                return self.rebuilt(node)
 
 
 MIRROR = Mirror()

@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from evaluations import constraints, content, group
+from every_member import PATHS, POINTS, VECTORS, title
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from azee.lang.reflection import MIRROR, WithDominant
 from azee.score.score import Group, Key, Score, leaves
+from azee_rig.rig import Rig
 from azee_solver.constraint import Constraint, Morph, Orient, Place, Rotate
+from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import (
     Bone,
     Cross,
     FreePoint,
     NamedPoint,
+    Path,
+    Point,
     Rotated,
     Side,
     SigningSpace,
     Site,
     Vec,
+    Vector,
 )
 
 SIGNS = (
@@ -71,6 +79,24 @@ def test_a_mirror_image_swaps_sides_vectors_and_places() -> None:
         Morph("AU1_L", None, 1.0),
         Morph("thumb_bend", Side.WEAK, 1.0),
     )
+
+
+@pytest.mark.parametrize("part", [*VECTORS, *POINTS, *PATHS], ids=title)
+def test_geometry_is_seen_in_a_mirror(part: Vector | Point | Path, signer: Rig) -> None:
+    """On a body that is its own mirror image: what is mirrored lies where the mirror shows it."""
+    measure, mirror = Evaluator(signer, Side.RIGHT), np.array([-1.0, 1.0, 1.0])
+    frames = signer.chain.frames(np.zeros(len(signer.coordinates)))
+    ends = np.array([[0.1, 1.2, 0.3], [-0.2, 1.3, 0.4]])
+
+    def numbers(shown: Vector | Point | Path, ends: NDArray[np.float64]) -> NDArray[np.float64]:
+        if isinstance(shown, Vector):
+            return measure.vector(shown, frames)
+        if isinstance(shown, Point):
+            return measure.point(shown, frames, 0.3)
+        return measure.path(shown, ends[0], ends[1], 0.3, frames)
+
+    mirrored = numbers(MIRROR.node(part), ends * mirror)
+    np.testing.assert_allclose(mirrored, numbers(part, ends) * mirror, atol=1e-12)
 
 
 def test_times_and_calls_stay() -> None:

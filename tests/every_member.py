@@ -1,0 +1,113 @@
+"""An example of every member of the unions of geometry and constraints, for what reads them all.
+
+A new member is added here, and then passes through the tests of evaluation, kernels, footprints,
+solving, notation, mirror images and scores. Numbers are exact in binary, angles whole degrees, so
+that texts give them back.
+"""
+
+from __future__ import annotations
+
+import math
+
+from azee_solver.constraint import (
+    BoneAxis,
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+    Transpath,
+    Trill,
+)
+from azee_solver.geometry import (
+    Arc,
+    Between,
+    Bone,
+    Circle,
+    Cross,
+    Dir,
+    FreePoint,
+    JointPoint,
+    Moving,
+    NamedPoint,
+    Nrm,
+    Opp,
+    Out,
+    Path,
+    Point,
+    Rotated,
+    Scale,
+    Side,
+    SigningSpace,
+    Site,
+    SitePoint,
+    Straight,
+    Through,
+    Towards,
+    Unit,
+    VDiff,
+    Vec,
+    Vector,
+    VSum,
+    VTranslate,
+    WorldPoint,
+)
+
+S, W = Side.STRONG, Side.WEAK
+TIP, CHIN = Site("I_TIP", S), SitePoint(Site("CH"))
+UP, SLANTED = Vec(0.0, 1.0, 0.0), Vec(0.5, 1.0, 0.25)
+PALM, OTHER_PALM, HEAD = Bone("palm", S), Bone("palm", W), Bone("head")
+OTHER_TIP = SitePoint(Site("I_TIP", W))
+RIGHT_SPACE = FreePoint(-0.25, -0.25, 0.375)
+
+VECTORS: tuple[Vector, ...] = (
+    SLANTED,
+    Out(S),
+    Dir(OTHER_PALM),
+    Nrm(OTHER_PALM),
+    Opp(Dir(HEAD)),
+    Unit(SLANTED),
+    Scale(Nrm(HEAD), 0.5),
+    VSum((SLANTED, Dir(OTHER_PALM))),
+    VDiff(SLANTED, Nrm(OTHER_PALM)),
+    Cross(Nrm(HEAD), SLANTED),
+    Towards(CHIN, OTHER_TIP),
+    Rotated(Nrm(OTHER_PALM), SLANTED, math.radians(30)),
+)
+POINTS: tuple[Point, ...] = (
+    RIGHT_SPACE,
+    NamedPoint(SigningSpace.SSSP),
+    OTHER_TIP,
+    JointPoint(OTHER_PALM),
+    VTranslate(CHIN, Vec(0.0, -0.1, 0.2)),
+    Between(OTHER_TIP, CHIN, 0.25),
+    Moving(Straight(), RIGHT_SPACE, VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1))),
+    WorldPoint(-0.2, 1.2, 0.3),
+)
+PATHS: tuple[Path, ...] = (
+    Straight(),
+    Arc(Scale(Nrm(OTHER_PALM), 0.125)),
+    Circle(Vec(0.0, 0.0, 1.0), 0.0625, 1.25),
+    Through((VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)),)),
+)
+CONSTRAINTS: tuple[Constraint, ...] = (
+    Place(TIP, RIGHT_SPACE),
+    Orient(BoneAxis.NRM, PALM, Relation.ALONG, Opp(UP)),
+    Look(Vec(0.25, 0.0, 1.0)),
+    LookAt(VTranslate(CHIN, Vec(0.25, 0.0, 1.0))),
+    Morph("index_bend", S, 0.5),
+    Rotate(HEAD, UP, math.radians(10)),
+    Trill(PALM, UP, 5.0, math.radians(12)),
+    Transpath(TIP, Arc(Vec(0.0, 0.125, 0.0))),
+)
+
+
+def title(value: object) -> str:
+    """Name a constraint for a test by its class, and by those of its point, vector and path."""
+    parts = [value]
+    for name in ("point", "vector", "path"):
+        parts += [inner] if (inner := getattr(parts[-1], name, None)) is not None else []
+    return "-".join(type(part).__name__ for part in parts)

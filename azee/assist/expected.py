@@ -113,7 +113,8 @@ def _native(native: Native, where: Place) -> Expected:
             return Expected((Kind.OPERATOR,) if where.number == 0 else ())
         case "list":
             return _list(where)
-    return _operands(native, where)
+        case _:
+            return _operands(native, where)
 
 
 def _operands(native: Native, where: Place) -> Expected:
@@ -153,7 +154,7 @@ def _operand(operand: Operand, where: Place) -> Expected:
     if operand.words:
         words = tuple(_word(What.WORD, word, operand.meaning) for word in operand.words)
         return Expected((Kind.SYMBOL,), words)
-    symbols: tuple[Description, ...] = ()
+    symbols: tuple[Description, ...]
     head = where.frame.head
     assert head is not None
     match head.text, operand.name:
@@ -168,6 +169,8 @@ def _operand(operand: Operand, where: Place) -> Expected:
             symbols = tuple(_blocks(where))
         case "ref", "bound":
             symbols = tuple(_word(What.WORD, word, "of that block") for word in ("start", "end"))
+        case _:
+            symbols = ()
     return Expected(operand.kinds, symbols)
 
 

@@ -13,7 +13,15 @@ from azee.lang.rule import Rule, is_azop
 from azee.lang.scope import AmbiguousRule, Namespace, Scope
 from azee.lang.values import Kind
 from azee_grammar.library import shipped_names
-from azee_grammar.syntax import Application, Expr, OperatorName, RuleForm, RuleName
+from azee_grammar.syntax import (
+    Application,
+    BoneName,
+    Expr,
+    OperatorName,
+    RuleForm,
+    RuleName,
+    SiteName,
+)
 
 _DEEPEST = 20
 
@@ -76,6 +84,6 @@ class Knowledge:
                 case RuleName(name=name) | OperatorName(name=name):
                     inner = self.rule(name)
                     body = inner.definition.body if inner is not None else None
-                case _:
+                case BoneName() | SiteName():
                     return None
         return None

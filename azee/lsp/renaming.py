@@ -12,7 +12,16 @@ from azee.lsp.occurrences import Occurrence, Target, What
 from azee.lsp.texts import Texts
 from azee_grammar.parser import parse, parse_expression
 from azee_grammar.source import Source, Span
-from azee_grammar.syntax import Application, Parameter, RuleName, Symbol
+from azee_grammar.syntax import (
+    Application,
+    Hole,
+    Number,
+    Parameter,
+    RuleName,
+    SideWord,
+    Symbol,
+    Text,
+)
 
 
 class CannotRename(Exception):  # noqa: N818 - its message is for the person who asks
@@ -67,7 +76,7 @@ def _may_be_called(what: What, name: str) -> bool:
             return read == name and what is What.RULE
         case Parameter(name=read) | Symbol(name=read):
             return read == name
-        case _:
+        case Application() | Number() | Text() | Hole() | SideWord():
             return False
 
 

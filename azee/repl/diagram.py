@@ -15,7 +15,17 @@ from azee.repl.ink import Ink, Line, cut, width
 from azee.score.interval import Interval
 from azee.score.score import Blank, Group, Hold, Key, Score
 from azee_grammar import vocabulary
-from azee_solver.constraint import Constraint, Look, LookAt, Morph, Rotate, Trill
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
 
 NARROWEST = 24
 MOST_ROWS = 40
@@ -165,7 +175,7 @@ def _moves(constraint: Constraint) -> Ink:
             return Ink.HANDS if skeletal else Ink.FACE
         case Rotate(bone=bone) | Trill(bone=bone):
             return Ink.HEAD if bone.name.startswith(_TRUNK) else Ink.HANDS
-        case _:
+        case Place() | Orient() | Transpath():
             return Ink.HANDS
 
 

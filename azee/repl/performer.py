@@ -8,7 +8,23 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from azee.compilation import Hand
-from azee.lang.values import ConstraintsValue, ScoreValue, Value
+from azee.lang.values import (
+    BoneValue,
+    BooleanValue,
+    ConstraintsValue,
+    ListValue,
+    NumberValue,
+    OperatorValue,
+    PathValue,
+    PointValue,
+    ScoreValue,
+    SideValue,
+    SiteValue,
+    SymbolValue,
+    TextValue,
+    Value,
+    VectorValue,
+)
 from azee.repl.refusal import Refusal
 from azee.score.score import Key, Score
 from azee_grammar.diagnostic import AZeeError
@@ -108,7 +124,20 @@ def playable(value: Value) -> Score | None:
             return score
         case ConstraintsValue(content=constraints):
             return Key(SHOWN_S, constraints=constraints)
-        case _:
+        case (
+            NumberValue()
+            | SymbolValue()
+            | TextValue()
+            | SideValue()
+            | BooleanValue()
+            | BoneValue()
+            | SiteValue()
+            | VectorValue()
+            | PointValue()
+            | PathValue()
+            | ListValue()
+            | OperatorValue()
+        ):
             return None
 
 

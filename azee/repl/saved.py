@@ -8,7 +8,17 @@ from pathlib import Path
 from azee.formats import writing
 from azee.repl.refusal import Refusal
 from azee.repl.session import LAST, Session
-from azee_grammar.syntax import Application, Expr, Named, Parameter
+from azee_grammar.syntax import (
+    Application,
+    Expr,
+    Hole,
+    Named,
+    Number,
+    Parameter,
+    SideWord,
+    Symbol,
+    Text,
+)
 
 
 def save_text(session: Session, path: Path) -> None:
@@ -42,3 +52,5 @@ def _parameters(expr: Expr | Named) -> Iterator[str]:
                 waiting.append(value)
             case Application(operands=operands):
                 waiting += operands
+            case Number() | Text() | Symbol() | Hole() | SideWord():
+                pass

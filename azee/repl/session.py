@@ -17,7 +17,7 @@ from azee_grammar.diagnostic import AZeeError, Diagnostic
 from azee_grammar.layout import LayoutReader
 from azee_grammar.parser import parse
 from azee_grammar.source import Source
-from azee_grammar.syntax import Definition, Expr, Item, Use
+from azee_grammar.syntax import Definition, Expr, Item, Use, Utterance
 
 LAST = "_"
 """`^_` is the last result at the prompt."""
@@ -164,10 +164,10 @@ class Session:
                 rule = self.program.scope.own.rules[name]
                 _ = rule.procedure
                 return Defined(name, again, tuple(rule.diagnostics))
-            case _:
+            case Utterance(expr=expr):
                 began = time.perf_counter()
-                value = self.program.result(item.expr, self.names)
-                self.last = Evaluated(text, item.expr, value, time.perf_counter() - began)
+                value = self.program.result(expr, self.names)
+                self.last = Evaluated(text, expr, value, time.perf_counter() - began)
                 return self.last
 
     def _use(self, item: Use, name: str) -> Outcome:

@@ -64,7 +64,15 @@ def value_lines(value: Value, columns: int, *, colour: bool) -> Iterator[Line]:
                 kind = (Ink.FAINT, f"  {element.kind.value}")
                 yield ((Ink.FAINT, f"{i:>3}  "), (Ink.PLAIN, short(element)), kind)
             yield from _more(len(values))
-        case _:
+        case (
+            NumberValue()
+            | SymbolValue()
+            | TextValue()
+            | SideValue()
+            | BooleanValue()
+            | BoneValue()
+            | SiteValue()
+        ):
             yield ((Ink.PLAIN, short(value)), (Ink.FAINT, f"  {value.kind.value}"))
 
 

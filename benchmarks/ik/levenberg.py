@@ -132,7 +132,8 @@ def flat_row(
             other_node, other_local = _direction(rig, vector, dominant)
             kind = ALONG if relation is Relation.ALONG else ACROSS
             return kind, node, local, other_node, other_local
-    raise ValueError(f"not a constraint of the benchmark: {constraint}")
+        case _:
+            raise ValueError(f"not a constraint of the benchmark: {constraint}")
 
 
 def _axis(rig: Rig, bone: Bone, axis: BoneAxis, dominant: Side) -> tuple[int, Array]:
@@ -150,7 +151,8 @@ def _direction(rig: Rig, vector: Vector, dominant: Side) -> tuple[int, Array]:
         case Opp(inner):
             node, local = _direction(rig, inner, dominant)
             return node, -local
-    raise ValueError(f"not a direction of the benchmark: {vector}")
+        case _:
+            raise ValueError(f"not a direction of the benchmark: {vector}")
 
 
 def as_json(flat: Flat) -> list[Mapping[str, object]]:

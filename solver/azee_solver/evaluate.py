@@ -28,6 +28,8 @@ from azee_solver.constraint import (
     Place,
     Relation,
     Rotate,
+    Transpath,
+    Trill,
 )
 from azee_solver.geometry import (
     Arc,
@@ -294,7 +296,7 @@ class Evaluator:
                 own = self.binding.preset(constraint)
                 off = [np.abs(q[..., v] - whole[v]) for v in own]
                 return np.max(np.stack(off), axis=0), "rad"
-            case _:
+            case Morph() | Trill() | Transpath():
                 raise ValueError(f"no posture meets a {type(constraint).__name__}")
 
     def rotation(self, rotate: Rotate, frames: Frames) -> Array:

@@ -4,9 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from azee_solver.anatomy import Anatomy
+from azee_solver.anatomy import Anatomy, Part, part_of
 from azee_solver.binding import EYES, Binding
-from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
 from azee_solver.geometry import (
     Arc,
     Between,
@@ -93,9 +103,23 @@ def footprint(constraint: Constraint, binding: Binding) -> Footprint:
             if aside.nodes:
                 reader.nodes |= aside.nodes
                 reader.world = reader.world or aside.world
-        case _:
-            raise ValueError(f"no posture meets a {type(constraint).__name__}")
+        case Morph() | Trill() | Transpath():
+            raise ValueError(f"no footprint of a {type(constraint).__name__}")
     return Footprint(frozenset(own), frozenset(reader.nodes), reader.world)
+
+
+def part_constrained(constraint: Constraint, binding: Binding) -> Part | None:
+    """Part of the body that the placed site or the turned bone belongs to.
+
+    None for a gaze, which eyes and head share, and for what no posture meets. Raises BindingError.
+    """
+    match constraint:
+        case Place(site):
+            return part_of(binding.site(site).bone)
+        case Orient(_, bone) | Rotate(bone):
+            return part_of(bone.name)
+        case Look() | LookAt() | Morph() | Trill() | Transpath():
+            return None
 
 
 class _Reader:

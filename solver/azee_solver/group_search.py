@@ -23,13 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver import block
-from azee_solver.anatomy import Part, part_of
-from azee_solver.binding import Binding
+from azee_solver.anatomy import Part
 from azee_solver.body import Body
 from azee_solver.broadphase import Collisions
 from azee_solver.collisions import MARGIN_M, depths
-from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
+from azee_solver.constraint import Look, LookAt, Place
 from azee_solver.descent import refined, scaled_weights, soft_descent, stiff_descent
+from azee_solver.footprint import part_constrained
 from azee_solver.program import Program, Row
 from azee_solver.residuals import Residuals, lower
 from azee_solver.result import Result, excess, is_repeat, merit
@@ -293,7 +293,7 @@ class GroupSearch:
         if not free & anatomy_.of(Part.TRUNK) or not free & anatomy_.of(Part.HEAD):
             return []
         binding = self.body.evaluator.binding
-        if any(_turns_head(task.constraint, binding) for task in self.tasks.values()):
+        if Part.HEAD in {part_constrained(t.constraint, binding) for t in self.tasks.values()}:
             return []
         node = rig.bones["head"].node
         level = self.body.frames(self.body.reference).rotations[node]
@@ -309,13 +309,3 @@ class GroupSearch:
             )
             for k in columns
         ]
-
-
-def _turns_head(constraint: Constraint, binding: Binding) -> bool:
-    match constraint:
-        case Place(site):
-            return part_of(binding.site(site).bone) is Part.HEAD
-        case Orient(_, bone) | Rotate(bone):
-            return part_of(bone.name) is Part.HEAD
-        case _:
-            return False

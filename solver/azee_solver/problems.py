@@ -18,10 +18,10 @@ from enum import IntEnum
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
-from azee_solver.anatomy import Anatomy, Part, part_of
+from azee_solver.anatomy import Anatomy, Part
 from azee_solver.binding import Binding
 from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Rotate
-from azee_solver.footprint import Footprint, footprint
+from azee_solver.footprint import Footprint, footprint, part_constrained
 from azee_solver.ordering import ordered
 from azee_solver.task import Task
 
@@ -117,22 +117,13 @@ def _places(tasks: Sequence[Task]) -> list[int]:
 @lru_cache(maxsize=4096)
 def _asks(constraint: Constraint, binding: Binding) -> tuple[type, Part | None, Footprint]:
     """Find what a constraint asks of a body; the same ones come again from key to key."""
-    return _role(constraint), _part(constraint, binding), footprint(constraint, binding)
+    part = part_constrained(constraint, binding)
+    return _role(constraint), part, footprint(constraint, binding)
 
 
 def _role(constraint: Constraint) -> type:
     roles = {Rotate: Orient, LookAt: Look}
     return roles.get(type(constraint), type(constraint))
-
-
-def _part(constraint: Constraint, binding: Binding) -> Part | None:
-    match constraint:
-        case Place(site):
-            return part_of(binding.site(site).bone)
-        case Orient(_, bone) | Rotate(bone):
-            return part_of(bone.name)
-        case _:
-            return None
 
 
 @lru_cache(maxsize=256)

@@ -11,7 +11,18 @@ from numpy.typing import NDArray
 
 from azee_solver import block
 from azee_solver.binding import EYES
-from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Relation, Rotate
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+    Transpath,
+    Trill,
+)
 from azee_solver.geometry import SitePoint
 from azee_solver.program import Row
 from azee_solver.tape import DegenerateError, Tape
@@ -94,18 +105,21 @@ def _rows(tape: Tape, task: Task, weight: float) -> list[Row]:
         case Rotate():
             # The three columns' chords are 2 sin(φ / 2) √2 together.
             return [Row(block.MEET, a, b, 0.5 * weight) for a, b in tape.turned_frame(constraint)]
-        case _:
-            raise ValueError(f"no posture meets a {type(constraint).__name__}")
+        case Morph() | Trill() | Transpath():
+            raise ValueError(f"no residual of a {type(constraint).__name__} is optimised")
 
 
 def _size(constraint: Constraint, lengths: Sequence[float]) -> float:
     """Metres or radians of a constraint, from the lengths of its rows' gaps."""
-    if isinstance(constraint, Place):
-        return lengths[0]
-    if isinstance(constraint, Orient) and constraint.relation is Relation.ACROSS:
-        return math.asin(min(lengths[0], 1.0))
-    if isinstance(constraint, Rotate):
-        chord = math.sqrt(sum(length * length for length in lengths) / 2)
-    else:
-        chord = max(lengths)
+    match constraint:
+        case Place():
+            return lengths[0]
+        case Orient(relation=Relation.ACROSS):
+            return math.asin(min(lengths[0], 1.0))
+        case Orient() | Look() | LookAt():
+            chord = max(lengths)
+        case Rotate():
+            chord = math.sqrt(sum(length * length for length in lengths) / 2)
+        case Morph() | Trill() | Transpath():
+            raise ValueError(f"a {type(constraint).__name__} has no rows")
     return 2 * math.asin(min(chord / 2, 1.0))

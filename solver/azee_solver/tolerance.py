@@ -5,7 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from azee_solver.constraint import Constraint, Place
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +30,11 @@ class Tolerance:
 
     def of(self, constraint: Constraint) -> float:
         """Return the tolerance of a constraint, in the unit of its residual."""
-        return self.length_m if isinstance(constraint, Place) else self.angle_rad
+        match constraint:
+            case Place() | Transpath():
+                return self.length_m
+            case Orient() | Look() | LookAt() | Morph() | Trill() | Rotate():
+                return self.angle_rad
 
 
 PAPER = Tolerance(length_m=0.01, angle_rad=math.radians(5.0))

@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from every_member import CONSTRAINTS, POINTS, title
 
 from azee.motion.keys.transpath import (
     PathMotion,
@@ -43,16 +44,19 @@ from azee_solver.constraint import (
 )
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import (
+    Between,
     Bone,
     Dir,
     Moving,
     NamedPoint,
+    Point,
     Side,
     SigningSpace,
     Site,
     SitePoint,
     Straight,
     Vec,
+    VTranslate,
 )
 
 F = Fraction
@@ -123,6 +127,23 @@ def test_a_point_that_moves_is_dynamic_and_goes_by_minimum_jerk() -> None:
     assert moving.dynamic
     assert [moving.phase(F(n, 2)) for n in range(3)] == [0, 0.5, 1]
     assert moving.ik_task(F(1, 2)).phase == 0.5
+
+
+@pytest.mark.parametrize("point", POINTS, ids=title)
+def test_every_point_is_known_to_move_or_to_stay(point: Point) -> None:
+    frames = rig().chain.frames(rig().coordinates.idle)
+    first, later = (evaluator().point(point, frames, phase) for phase in (0.0, 0.5))
+    betweens = Between(point, MIDDLE, 0.5), Between(MIDDLE, point, 0.5)
+    for wanted in (point, VTranslate(point, UP), *betweens):
+        assert one(Place(TIP, wanted)).dynamic == bool(np.any(first != later))
+
+
+@pytest.mark.parametrize("constraint", CONSTRAINTS, ids=title)
+def test_every_constraint_is_a_posture_s_or_a_movement_s(constraint: Constraint) -> None:
+    found = bound(block("ONE", "0", "1", constraint))
+    assert len(found.postures) == (not isinstance(constraint, Transpath | Trill))
+    assert len(found.all) == 1
+    assert found.all[0].moves
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from fractions import Fraction
 from azee.export.pictures.shapes import Drawing, Line, Rect, Shape, Text, Told
 from azee.export.score_layout import GAP, LEAF_HEIGHT, Box, boundaries, flattened, nested
 from azee.export.track_rows import Bar, Row
-from azee.score.score import Blank, Group, Hold, Score
+from azee.score.score import Blank, Group, Hold, Key, Score
 
 MARGIN = 28.0
 INSET = 2.5
@@ -127,7 +127,7 @@ def _kind(box: Box) -> str:
             return "hold"
         case Blank():
             return "blank"
-        case _:
+        case Key():
             return "leaf"
 
 

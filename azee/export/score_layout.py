@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from azee.export.notation import constraint_text
 from azee.score.interval import Interval
 from azee.score.score import Blank, Group, Hold, Key, Score, leaves
+from azee_solver.notation import constraint_text
 
 LEAF_HEIGHT = 28.0
 HEADER = 20.0

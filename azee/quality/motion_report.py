@@ -17,9 +17,8 @@ from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
 from azee.quality.measures import CoordinatePeaks, Penetration
 from azee_rig.coordinates import Coordinates
-from azee_solver import describe
-from azee_solver.constraint import Constraint, Trill
-from azee_solver.geometry import Side
+from azee_solver.constraint import Trill
+from azee_solver.notation import operator_text, subject_text, target_text
 
 if TYPE_CHECKING:
     from azee.motion.tasks.key_posture import KeyPosture
@@ -141,7 +140,7 @@ class MotionReport:
 
 
 def constraint_results(
-    schedule: TaskSchedule, plan: Plan, trill_shortfalls: Mapping[int, float], dominant: Side
+    schedule: TaskSchedule, plan: Plan, trill_shortfalls: Mapping[int, float]
 ) -> tuple[ConstraintResult, ...]:
     """Measure every task at the clip's frames and at the keys inside its block.
 
@@ -153,15 +152,15 @@ def constraint_results(
     out = []
     for task in schedule.all:
         if task.rank in measured:
-            out.append(_measured(task, plan, dominant))
+            out.append(_measured(task, plan))
         elif isinstance(task.constraint, Trill):
-            out.append(_trill(task, trill_shortfalls.get(task.rank, 0.0), dominant))
+            out.append(_trill(task, trill_shortfalls.get(task.rank, 0.0)))
         else:
-            out.append(_result(task, dominant, 0.0, "m", FACE_TOLERANCE_M, None))
+            out.append(_result(task, 0.0, "m", FACE_TOLERANCE_M, None))
     return tuple(out)
 
 
-def _measured(task: TimedTask, plan: Plan, dominant: Side) -> ConstraintResult:
+def _measured(task: TimedTask, plan: Plan) -> ConstraintResult:
     monitor = plan.monitor
     rows = monitor.rows_inside(task, plan.samples.seconds)
     values = monitor.residual(task, plan.samples.only(rows))
@@ -170,7 +169,7 @@ def _measured(task: TimedTask, plan: Plan, dominant: Side) -> ConstraintResult:
     reason = None
     if not residual <= tolerance * _ROUNDING:
         reason = _reason(task, plan, residual)
-    return _result(task, dominant, residual, unit, tolerance, reason)
+    return _result(task, residual, unit, tolerance, reason)
 
 
 def _reason(task: TimedTask, plan: Plan, residual: float) -> str:
@@ -194,15 +193,14 @@ def _reason(task: TimedTask, plan: Plan, residual: float) -> str:
     return "met at the keys but not at every frame between them"
 
 
-def _trill(task: TimedTask, shortfall: float, dominant: Side) -> ConstraintResult:
+def _trill(task: TimedTask, shortfall: float) -> ConstraintResult:
     tolerance = TOLERANCE["rad"]
     reason = None if shortfall <= tolerance else "the limits of its joints are in the way"
-    return _result(task, dominant, shortfall, "rad", tolerance, reason)
+    return _result(task, shortfall, "rad", tolerance, reason)
 
 
 def _result(
     task: TimedTask,
-    dominant: Side,
     residual: float,
     unit: str,
     tolerance: float,
@@ -211,9 +209,9 @@ def _result(
     return ConstraintResult(
         path=task.path,
         rule=task.requirement.rule,
-        kind=kind(task.constraint),
-        subject=describe.subject(task.constraint, dominant),
-        target=describe.target(task.constraint, dominant),
+        kind=operator_text(task.constraint),
+        subject=subject_text(task.constraint),
+        target=target_text(task.constraint),
         start_s=float(task.interval.start),
         end_s=float(task.interval.end),
         residual=residual if math.isfinite(residual) else None,
@@ -222,11 +220,6 @@ def _result(
         met=reason is None,
         reason=reason,
     )
-
-
-def kind(constraint: Constraint) -> str:
-    """Return the AZee word for a kind of constraint."""
-    return type(constraint).__name__.lower()
 
 
 def limit_excess(q: Array, coordinates: Coordinates) -> tuple[float, str | None]:
@@ -253,7 +246,10 @@ def _problems(posture: KeyPosture) -> Sequence[dict[str, object]]:
             "time_s": float(posture.time),
             "name": p.name,
             "constraints": [
-                {"path": [*posture.ik_tasks[i].path], "kind": kind(posture.ik_tasks[i].constraint)}
+                {
+                    "path": [*posture.ik_tasks[i].path],
+                    "kind": operator_text(posture.ik_tasks[i].constraint),
+                }
                 for i in p.constraints
             ],
             "chain": [*p.chain],

@@ -5,13 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 
-from azee.export.notation import (
-    constraint_text,
-    part_text,
-    path_text,
-    point_text,
-    vector_text,
-)
 from azee.lang.procedure import Applicable
 from azee.lang.values import (
     BoneValue,
@@ -34,6 +27,13 @@ from azee.repl.diagram import diagram
 from azee.repl.ink import Ink, Line
 from azee.score.score import leaves
 from azee_solver.geometry import Bone, NamedPoint, Side, Site
+from azee_solver.notation import (
+    constraint_text,
+    part_text,
+    path_text,
+    point_text,
+    vector_text,
+)
 
 MOST_LINES = 40
 

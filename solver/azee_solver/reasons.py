@@ -17,11 +17,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver import describe
 from azee_solver.body import Body
 from azee_solver.constraint import Morph, Place
 from azee_solver.footprint import Footprint
 from azee_solver.group_search import solve_group
+from azee_solver.notation import constraint_text, subject_text
 from azee_solver.result import Result
 from azee_solver.task import Task
 
@@ -45,7 +45,7 @@ class Diagnosis:
         q: Array,
     ) -> None:
         self.tasks, self.footprints, self.q = tasks, footprints, q
-        self.body, self.dominant = body, body.evaluator.binding.dominant
+        self.body = body
         self.spent_s = 0.0
 
     @cached_property
@@ -79,13 +79,13 @@ class Diagnosis:
             return self._others(i)
         if held and not self._alone(self.relaxed, [i], everything=True).missed():
             bones = sorted({self.firm.anatomy.names[v].split(".")[0] for v in held})
-            return f"needs {describe.sentence(bones)}, held fixed"
+            return f"needs {_sentence(bones)}, held fixed"
         left = alone.ratios[i] * self.firm.options.tolerance.of(constraint)
         if self._beyond_reach(i) > self.firm.options.tolerance.of(constraint):
             return f"out of reach by {_size(constraint, left)}"
         stopped = self._limits(i, alone)
         if stopped:
-            return f"limit of {describe.sentence(stopped)}"
+            return f"limit of {_sentence(stopped)}"
         return f"out of reach by {_size(constraint, left)}"
 
     # One constraint alone ---------------------------------------------------------------------
@@ -191,7 +191,7 @@ class Diagnosis:
             return f"conflicts with {self._names(guilty or rivals)} together"
         held = self._fixed_by(i)
         if held:
-            return f"needs {describe.sentence(held)}"
+            return f"needs {_sentence(held)}"
         return "the body is in the way of meeting all at once"
 
     def _rivals(self, i: int) -> list[int]:
@@ -217,8 +217,7 @@ class Diagnosis:
             ):
                 held = moved & frozenset(self.firm.evaluator.binding.preset(constraint))
                 if held:
-                    name = describe.subject(constraint, self.dominant)
-                    out.append(f"coordinates that {name} fixes")
+                    out.append(f"coordinates that `{subject_text(constraint)}` fixes")
         return out
 
     def _touching(self, result: Result) -> str:
@@ -228,9 +227,14 @@ class Diagnosis:
         return f"{overlaps[0].first} against {overlaps[0].second}"
 
     def _names(self, indices: Iterable[int]) -> str:
-        return describe.sentence(
-            [f"`{describe.whole(self.tasks[k].constraint, self.dominant)}`" for k in indices]
-        )
+        return _sentence([f"`{constraint_text(self.tasks[k].constraint)}`" for k in indices])
+
+
+def _sentence(parts: Sequence[str]) -> str:
+    """Join parts as `a`, `a and b`, `a, b and c`."""
+    if len(parts) < 2:
+        return "".join(parts)
+    return f"{', '.join(parts[:-1])} and {parts[-1]}"
 
 
 def _size(constraint: object, amount: float) -> str:

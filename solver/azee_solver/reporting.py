@@ -72,8 +72,7 @@ def _constraints(
         if not met:
             explain = body.options.explain
             why = diagnosis.reason(i, i in undefined) if explain else "not looked into"
-        dominant = measure.binding.dominant
-        yield ConstraintReport(task, dominant, float(residual), unit, tolerance, met, why)
+        yield ConstraintReport(task, float(residual), unit, tolerance, met, why)
 
 
 def _problems(
@@ -92,7 +91,6 @@ def _problems(
             out[p] = ProblemReport(
                 problem.tasks,
                 tuple(moment.constraints[i] for i in problem.tasks),
-                body.evaluator.binding.dominant,
                 problem.chain,
                 out[first] if p != first else None,
                 tuple(part.value for part in Part if part in parts),

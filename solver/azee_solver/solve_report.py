@@ -7,11 +7,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver import describe
 from azee_solver.collisions import Overlap
 from azee_solver.constraint import Constraint
 from azee_solver.evaluate import LengthOrAngle
-from azee_solver.geometry import Side
+from azee_solver.notation import problem_text, subject_text, target_text
 from azee_solver.task import Task
 
 
@@ -28,7 +27,6 @@ class ProblemReport:
 
     constraints: tuple[int, ...]
     asked: tuple[Constraint, ...]
-    dominant: Side
     chain: tuple[str, ...]
     merged: ProblemReport | None
     moved: tuple[str, ...]
@@ -38,7 +36,7 @@ class ProblemReport:
     @property
     def name(self) -> str:
         """What its constraints speak of."""
-        return describe.problem([*self.asked], self.dominant)
+        return problem_text(self.asked)
 
     @property
     def merged_into(self) -> str | None:
@@ -55,7 +53,6 @@ class ConstraintReport:
     """
 
     task: Task
-    dominant: Side
     residual: float
     unit: LengthOrAngle
     tolerance: float
@@ -64,13 +61,13 @@ class ConstraintReport:
 
     @property
     def kind(self) -> str:
-        """What it speaks of, such as `place EL_R`."""
-        return describe.subject(self.task.constraint, self.dominant)
+        """What it speaks of, such as `place @EL(s)`."""
+        return subject_text(self.task.constraint)
 
     @property
     def target(self) -> str:
         """What it wants of that."""
-        return describe.target(self.task.constraint, self.dominant)
+        return target_text(self.task.constraint)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

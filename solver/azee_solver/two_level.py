@@ -22,7 +22,16 @@ from numpy.typing import NDArray
 
 from azee_solver.anatomy import Part
 from azee_solver.body import Body
-from azee_solver.constraint import Morph, Place, Transpath, Trill
+from azee_solver.constraint import (
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
 from azee_solver.evaluate import Evaluator
 from azee_solver.group_search import solve_group
 from azee_solver.options import SolveOptions
@@ -165,7 +174,6 @@ class _Keyframe:
         return ProblemReport(
             problem.tasks,
             tuple(self.constraints[i] for i in problem.tasks),
-            self.body.evaluator.binding.dominant,
             problem.chain,
             None,
             moved,
@@ -193,8 +201,11 @@ class _Keyframe:
             match task.constraint:
                 case Transpath() | Trill():
                     continue
-                case Morph() as morph if not binding.is_skeletal(morph):
-                    continue
+                case Morph() as morph:
+                    if not binding.is_skeletal(morph):
+                        continue
+                case Place() | Orient() | Look() | LookAt() | Rotate():
+                    pass
             residual, unit = self._residual(i)
             tolerance = SolveOptions().tolerance.of(task.constraint)
             met = residual <= tolerance
@@ -202,7 +213,6 @@ class _Keyframe:
             reports.append(
                 ConstraintReport(
                     task,
-                    binding.dominant,
                     residual,
                     "m" if unit == "m" else "rad",
                     tolerance,

@@ -167,7 +167,7 @@ def test_a_miss_is_named_and_strict_makes_it_count(capsys: pytest.CaptureFixture
     assert run(["compile", "far.azee", "-o", "far.bvh", "--strict"]) == 3
     told = capsys.readouterr().err
     assert "1 constraint is out of tolerance" in told
-    assert "place PA_R" in told
+    assert "place @PA(s)" in told
     assert "mm" in told
     assert Path("far.bvh").exists()
     assert run(["compile", "touch.azee", "--strict", "--quiet"]) == 0

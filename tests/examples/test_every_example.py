@@ -179,13 +179,13 @@ def test_tree_makes_the_problems_of_the_paper_and_meets_them(built: Path) -> Non
     assert len(names) >= 11
     weak, strong, hand = (
         next(i for i, name in enumerate(names) if part in name)
-        for part in ("H_BACK_L", "EL_R", "thumb_R_3")
+        for part in ("@H_BACK(w)", "@EL(s)", "!thumb(s, 3)")
     )
     assert weak < strong < hand
     assert len(first[hand]["constraints"]) == 4
     assert {first[strong]["merged_into"], first[hand]["merged_into"]} == {names[weak]}
     residuals = {c["subject"]: c["residual"] for c in report["constraints"]}
-    assert residuals["place EL_R"] < MILLIMETRE
-    assert residuals["dir of f_arm_R"] < np.radians(0.5)
+    assert residuals["place @EL(s)"] < MILLIMETRE
+    assert residuals["orient 'dir !f_arm(s)"] < np.radians(0.5)
     missed = {c["subject"] for c in report["constraints"] if not c["met"]}
-    assert missed <= {"nrm of thumb_R_2"}
+    assert missed <= {"orient 'nrm !thumb(s, 2)"}

@@ -13,6 +13,7 @@ from azee_grammar.syntax import (
     Item,
     Named,
     Number,
+    OperatorName,
     Parameter,
     RuleName,
     SideWord,
@@ -70,7 +71,8 @@ def _head(head: Head) -> str:
             return f"!{name}"
         case SiteName():
             return f"@{name}"
-    return name
+        case OperatorName():
+            return name
 
 
 def _name(name: str) -> str:

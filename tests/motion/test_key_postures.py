@@ -98,7 +98,7 @@ class Recorder:
         for d in ik_tasks:
             met = self.can(constraints) and d.constraint not in self.never
             why, residual = (None, 0.0) if met else ("no", 1.0)
-            reports.append(ConstraintReport(d, Side.RIGHT, residual, "m", 1e-3, met, why))
+            reports.append(ConstraintReport(d, residual, "m", 1e-3, met, why))
         return SolveReport(q, (), tuple(reports), (), 1, 0.0, frozenset())
 
     def placed(self) -> list[list[object]]:

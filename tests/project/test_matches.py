@@ -1,7 +1,8 @@
 """A match over one of our unions names every member, so that mypy finds where a new one is missing.
 
 mypy's `exhaustive-match` rejects a match that leaves members out, but a final `case _` silences
-it: a new kind of point or constraint would then be taken for something else.
+it, and so does a guard on the last case: a new kind of point or constraint would then be taken for
+something else.
 """
 
 from __future__ import annotations
@@ -22,9 +23,8 @@ LEFT_OPEN = {
     "azee/motion/tasks/conflict.py",
     "azee/motion/tasks/flatten.py",
     "azee/motion/tasks/timed_task.py",
-    "solver/azee_solver/describe.py",
 }
-"""Files with a match that ends in `case _` and should not."""
+"""Files with a match that ends so and should not."""
 
 
 def _unions(tree: ast.Module) -> Iterator[tuple[str, set[str]]]:
@@ -55,8 +55,7 @@ def _named(pattern: ast.pattern) -> set[str]:
 
 
 def _catches_all(case: ast.match_case) -> bool:
-    bare = isinstance(case.pattern, ast.MatchAs) and case.pattern.pattern is None
-    return bare and case.guard is None
+    return isinstance(case.pattern, ast.MatchAs) and case.pattern.pattern is None
 
 
 def _only_for_mypy(case: ast.match_case) -> bool:
@@ -64,12 +63,13 @@ def _only_for_mypy(case: ast.match_case) -> bool:
 
 
 def _open_matches(tree: ast.AST) -> Iterator[int]:
-    """Yield the lines of `case _` that catch what remains of one of our unions."""
+    """Yield the lines of last cases after which mypy does not look for missing members."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Match):
             named = set().union(*(_named(case.pattern) for case in node.cases))
             last = node.cases[-1]
-            if named & MEMBERS and _catches_all(last) and not _only_for_mypy(last):
+            silent = last.guard or (_catches_all(last) and not _only_for_mypy(last))
+            if named & MEMBERS and silent:
                 yield last.pattern.lineno
 
 
@@ -85,6 +85,8 @@ def test_what_catches_the_rest_of_a_union_is_found() -> None:
         for rest in (("_", "pass"), ("other", "raise ValueError"), ("_", "assert_never(p)"))
     }
     assert list(found.values()) == [[4], [4], []]
+    guarded = "match p:\n case FreePoint() if p.x:\n  pass"
+    assert list(_open_matches(ast.parse(guarded))) == [2]
     assert list(_open_matches(ast.parse("match p:\n case str():\n  pass\n case _:\n  pass"))) == []
 
 

@@ -8,7 +8,6 @@ import pytest
 from stick_body import stick_body
 from tree_sign import DIR, FINGERS, NRM, UP, S, W, along, tasks, tree
 
-from azee_solver import describe
 from azee_solver.anatomy import anatomy
 from azee_solver.binding import Binding
 from azee_solver.constraint import (
@@ -33,6 +32,7 @@ from azee_solver.geometry import (
     Straight,
 )
 from azee_solver.groups import grouped
+from azee_solver.notation import problem_text
 from azee_solver.ordering import ordered
 from azee_solver.problems import Problem, ProblemBuilder, Reach
 from azee_solver.task import PRECEDENCE, Task
@@ -54,7 +54,7 @@ def names(coordinates: frozenset[int]) -> set[str]:
 
 
 def named(problem: Problem, asked: list[Task]) -> str:
-    return describe.problem([asked[i].constraint for i in problem.tasks], Side.RIGHT)
+    return problem_text(asked[i].constraint for i in problem.tasks)
 
 
 def test_tree_is_the_paper_s_eleven_problems() -> None:
@@ -64,10 +64,11 @@ def test_tree_is_the_paper_s_eleven_problems() -> None:
     assert [p.tasks for p in problems[:3]] == [(0, 1, 2), (3,), (4, 5, 6, 7)]
     assert [p.tasks for p in problems[3:]] == [(i,) for i in range(8, 16)]
     called = [named(problem, asked) for problem in problems]
-    assert called[0].startswith("place H_BACK_L at")
-    assert called[1] == "place EL_R at PA_L"
-    assert called[2] == "orient f_arm_R dir, palm_R dir, thumb_R_3 dir, thumb_R_2 nrm"
-    assert called[3] == "orient index_R_1 dir"
+    axes = "dir !f_arm(s)", "dir !palm(s)", "dir !thumb(s, 3)", "nrm !thumb(s, 2)"
+    assert called[0].startswith("place @H_BACK(w) ")
+    assert called[1] == "place @EL(s) @PA(w) 'contact"
+    assert called[2] == ", ".join(f"orient '{axis}" for axis in axes)
+    assert called[3] == "orient 'dir !index(s, 1)"
     assert problems[2].chain[-1] == "thumb_R_3"
     assert problems[1].chain == ("back_1", "back_2", "clav_R", "arm_R")
 
@@ -75,8 +76,8 @@ def test_tree_is_the_paper_s_eleven_problems() -> None:
 def test_the_weak_hand_comes_first_however_it_is_written() -> None:
     asked = list(reversed(tree()))
     first = [named(p, asked) for p in build(asked)]
-    weak = next(i for i, name in enumerate(first) if "H_BACK_L" in name)
-    assert weak < first.index("place EL_R at PA_L")
+    weak = next(i for i, name in enumerate(first) if "@H_BACK(w)" in name)
+    assert weak < first.index("place @EL(s) @PA(w) 'contact")
 
 
 def test_an_orientation_joins_the_placement_whose_chain_holds_its_bone() -> None:
@@ -182,9 +183,9 @@ def test_digits_that_wait_for_an_arm_are_no_group_with_those_that_go_before_it()
     problems = build(asked)
     groups = grouped(problems, [Reach.OWN] * 3, BODY, fixed)
     assert [[named(problems[p], asked) for p in group.problems] for group in groups] == [
-        ["orient little_L_1 dir"],
-        ["place I_TIP_L at Mssp"],
-        ["orient index_R_1 dir"],
+        ["orient 'dir !little(w, 1)"],
+        ["place @I_TIP(w) ^Mssp"],
+        ["orient 'dir !index(s, 1)"],
     ]
 
 

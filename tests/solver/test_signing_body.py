@@ -84,8 +84,8 @@ def test_tree_meets_everything(signer: Rig, planted: SolveReport) -> None:
 def test_tree_is_eleven_problems_and_says_what_was_merged(planted: SolveReport) -> None:
     names = [p.name for p in planted.problems]
     assert len(names) == 11
-    assert names.index("place EL_R at PA_L") == 1
-    assert "H_BACK_L" in names[0]
+    assert names.index("place @EL(s) @PA(w) 'contact") == 1
+    assert "@H_BACK(w)" in names[0]
     assert planted.problems[2].merged_into == names[0]
 
 
@@ -104,7 +104,7 @@ def test_the_published_thumb_misses_by_its_limits_and_nothing_else_does(signer: 
     report = solve(signer, tree(thumb=True), dominant=Side.RIGHT, start=idle, reference=idle)
     assert len(report.problems) == 11
     unmet = missed(report)
-    assert [kind for kind, _, _ in unmet] in ([], ["nrm of thumb_R_2"])
+    assert [kind for kind, _, _ in unmet] in ([], ["orient 'nrm !thumb(s, 2)"])
     for _, residual, reason in unmet:
         assert math.degrees(residual) < 20
         assert reason is not None

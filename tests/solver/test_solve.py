@@ -283,7 +283,7 @@ def test_a_morph_beyond_its_limit_is_named() -> None:
 def test_of_two_that_exclude_each_other_the_earlier_wins() -> None:
     up_first = run(along(DIR, FOREARM, UP), along(DIR, FOREARM, FORWARD))
     assert up_first.constraints[0].met
-    assert reason(up_first, 1) == "conflicts with `dir of f_arm_R along up`"
+    assert reason(up_first, 1) == "conflicts with `orient 'dir !f_arm(s) 'along ^up`"
     assert up_first.constraints[1].residual == pytest.approx(math.pi / 2, abs=0.01)
     other = run(along(DIR, FOREARM, FORWARD), along(DIR, FOREARM, UP))
     assert other.constraints[0].met
@@ -293,7 +293,7 @@ def test_a_placement_wins_over_an_orientation() -> None:
     far = WorldPoint(-0.25, 1.5, 0.75)
     report = run(along(DIR, FOREARM, Vec(0.0, -1.0, 0.0)), Place(Site("I_TIP", S), far))
     assert report.constraints[1].met
-    assert reason(report, 0) == "conflicts with `place I_TIP_R at (-0.25 1.5 0.75) m`"
+    assert reason(report, 0) == "conflicts with `place @I_TIP(s) world-point(-0.25, 1.5, 0.75)`"
 
 
 def test_the_body_in_the_way_is_named() -> None:
@@ -337,8 +337,8 @@ def test_coordinates_that_a_morph_fixes_are_named() -> None:
     place = Place(Site("I_TIP", S), VTranslate(SitePoint(Site("PA", S)), there))
     assert run(place).met
     report = run(place, Morph("index_bend", S, 0.0), Morph("index_hook", S, 0.0))
-    assert reason(report).startswith("needs coordinates that morph index_bend_R fixes")
-    assert "morph index_hook_R" in reason(report)
+    assert reason(report).startswith("needs coordinates that `morph 'index_bend s` fixes")
+    assert "morph 'index_hook s" in reason(report)
 
 
 def test_an_undefined_direction_is_a_reason_and_spoils_nothing_else() -> None:

@@ -6,9 +6,15 @@ import math
 
 import pytest
 
-from azee.export.notation import constraint_text
 from azee_solver import constraint as c
 from azee_solver import geometry as g
+from azee_solver.notation import (
+    constraint_text,
+    operator_text,
+    problem_text,
+    subject_text,
+    target_text,
+)
 
 STRONG, WEAK = g.Side.STRONG, g.Side.WEAK
 PALM, INDEX = g.Bone("palm", STRONG), g.Bone("index", STRONG, 2)
@@ -23,7 +29,7 @@ READ_AS = {
         "place @CH vtranslate(joint(!index(s, 2)), scale(^up, 0.1))"
     ),
     c.Place(CHIN, g.Between(AT_CHIN, g.WorldPoint(0, 1, 0), 0.5)): (
-        "place @CH between(@CH, point(0, 1, 0), 0.5)"
+        "place @CH between(@CH, world-point(0, 1, 0), 0.5)"
     ),
     c.Place(CHIN, g.Moving(g.Arc(UP), AT_CHIN, AT_CHIN)): "place @CH moving(arc(^up), @CH, @CH)",
     c.Orient(c.BoneAxis.NRM, PALM, c.Relation.ALONG, g.Opp(g.Out(WEAK))): (
@@ -51,3 +57,34 @@ READ_AS = {
 @pytest.mark.parametrize("constraint", READ_AS, ids=READ_AS.get)
 def test_constraints_read_as_azee(constraint: c.Constraint) -> None:
     assert constraint_text(constraint) == READ_AS[constraint]
+
+
+@pytest.mark.parametrize(
+    ("constraint", "subject", "target"),
+    [
+        (c.Place(TIP, AT_CHIN, contact=True), "place @I_TIP(s)", "@CH 'contact"),
+        (
+            c.Orient(c.BoneAxis.DIR, PALM, c.Relation.ALONG, UP),
+            "orient 'dir !palm(s)",
+            "'along ^up",
+        ),
+        (c.LookAt(AT_CHIN), "lookat", "@CH"),
+        (c.Morph("index_bend", WEAK, 1), "morph 'index_bend w", "1"),
+    ],
+)
+def test_a_constraint_has_a_subject_and_a_target(
+    constraint: c.Constraint, subject: str, target: str
+) -> None:
+    assert (subject_text(constraint), target_text(constraint)) == (subject, target)
+    assert constraint_text(constraint) == f"{subject} {target}"
+    assert operator_text(constraint) == type(constraint).__name__.lower()
+
+
+def test_a_problem_is_named_by_its_placement_then_by_what_it_turns() -> None:
+    asked: list[c.Constraint] = [
+        c.Orient(c.BoneAxis.DIR, PALM, c.Relation.ALONG, UP),
+        c.Place(TIP, AT_CHIN),
+        c.Orient(c.BoneAxis.NRM, PALM, c.Relation.ALONG, g.Out(STRONG)),
+    ]
+    name = "place @I_TIP(s) @CH, orient 'dir !palm(s), orient 'nrm !palm(s)"
+    assert problem_text(asked) == name

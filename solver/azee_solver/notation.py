@@ -1,9 +1,13 @@
-"""Constraints and geometry back in AZee's own notation, on one line, for people to read."""
+"""Constraints and geometry back in AZee's own notation, on one line, for people to read.
+
+Reports, messages and drawings say with it what a text has said. Lengths are metres, angles degrees,
+as texts have them; strong and weak stay what they are. Numbers keep six digits.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import assert_never
+from collections.abc import Iterable
 
 from azee_solver.constraint import (
     Constraint,
@@ -60,35 +64,60 @@ DIRECTIONS: dict[tuple[float, float, float], str] = {
 
 def constraint_text(constraint: Constraint) -> str:
     """Return a constraint as AZee writes it, such as `place @EL(s) @PA(w) 'contact`."""
+    return " ".join(_halves(constraint))
+
+
+def subject_text(constraint: Constraint) -> str:
+    """Return its first half, its operator and what that moves: `place @EL(s)`, `look`."""
+    return _halves(constraint)[0]
+
+
+def target_text(constraint: Constraint) -> str:
+    """Return its second half, what it asks of that: `@PA(w) 'contact`, `'along ^up`."""
+    return _halves(constraint)[1]
+
+
+def operator_text(constraint: Constraint) -> str:
+    """Return the operator that makes such constraints: `place`."""
+    return subject_text(constraint).partition(" ")[0]
+
+
+def problem_text(constraints: Iterable[Constraint]) -> str:
+    """Name constraints that are solved together: placements and gazes whole, others by subject."""
+    placed, gazes, turned = [], [], []
+    for constraint in constraints:
+        match constraint:
+            case Place():
+                placed.append(constraint_text(constraint))
+            case Look() | LookAt():
+                gazes.append(constraint_text(constraint))
+            case Orient() | Morph() | Trill() | Rotate() | Transpath():
+                turned.append(subject_text(constraint))
+    return ", ".join([*placed, *gazes, *turned])
+
+
+def _halves(constraint: Constraint) -> tuple[str, str]:
     match constraint:
-        case Place(site=site, point=point, distance_m=distance, contact=contact):
-            options = [
-                *(["'dist", number_text(distance)] if distance else []),
-                *["'contact"] * contact,
-            ]
-            return _line("place", part_text(site), point_text(point), *options)
+        case Place(site, point, distance, contact):
+            options = f" 'dist {number_text(distance)}" if distance else ""
+            options += " 'contact" if contact else ""
+            return f"place {part_text(site)}", f"{point_text(point)}{options}"
         case Orient(axis, bone, relation, vector):
-            words = f"'{axis.value}", part_text(bone), f"'{relation.value}", vector_text(vector)
-            return _line("orient", *words)
+            subject = f"orient '{axis.value} {part_text(bone)}"
+            return subject, f"'{relation.value} {vector_text(vector)}"
         case Look(vector):
-            return _line("look", vector_text(vector))
+            return "look", vector_text(vector)
         case LookAt(point):
-            return _line("lookat", point_text(point))
+            return "lookat", point_text(point)
         case Morph(name, side, weight):
-            return _line("morph", f"'{name}", *([side.value] if side else []), number_text(weight))
+            return f"morph '{name}" + (f" {side.value}" if side else ""), number_text(weight)
         case Trill(bone, axis, frequency_hz, amplitude_rad):
-            rest = f"'freq {number_text(frequency_hz)} 'amp {_degrees(amplitude_rad)}"
-            return _line("trill", part_text(bone), vector_text(axis), rest)
+            options = f"'freq {number_text(frequency_hz)} 'amp {_degrees(amplitude_rad)}"
+            return f"trill {part_text(bone)}", f"{vector_text(axis)} {options}"
         case Rotate(bone, axis, angle_rad):
-            return _line("rotate", part_text(bone), vector_text(axis), _degrees(angle_rad))
+            return f"rotate {part_text(bone)}", f"{vector_text(axis)} {_degrees(angle_rad)}"
         case Transpath(site, path):
-            return _line("transpath", part_text(site), path_text(path))
-        case _:
-            assert_never(constraint)
-
-
-def _line(*words: str) -> str:
-    return " ".join(words)
+            return f"transpath {part_text(site)}", path_text(path)
 
 
 def _call(name: str, *operands: str) -> str:
@@ -133,15 +162,15 @@ def vector_text(vector: Vector) -> str:
             return _call("towards", point_text(start), point_text(end))
         case Rotated(of, axis, angle_rad):
             return _call("rotated", vector_text(of), vector_text(axis), _degrees(angle_rad))
-        case _:
-            assert_never(vector)
 
 
 def point_text(point: Point) -> str:
-    """Return a point as AZee writes it."""
+    """Return a point as AZee writes it; `world-point` is no operator, for no text makes one."""
     match point:
-        case FreePoint(x, y, z) | WorldPoint(x, y, z):
+        case FreePoint(x, y, z):
             return _call("point", *map(number_text, (x, y, z)))
+        case WorldPoint(x, y, z):
+            return _call("world-point", *map(number_text, (x, y, z)))
         case NamedPoint(place):
             return f"^{place.value}"
         case SitePoint(site):
@@ -154,8 +183,6 @@ def point_text(point: Point) -> str:
             return _call("between", point_text(start), point_text(end), number_text(fraction))
         case Moving(path, start, end):
             return _call("moving", path_text(path), point_text(start), point_text(end))
-        case _:
-            assert_never(point)
 
 
 def path_text(path: Path) -> str:
@@ -169,8 +196,6 @@ def path_text(path: Path) -> str:
             return _call("circle", vector_text(axis), number_text(radius_m), number_text(turns))
         case Through(points):
             return _call("through", *map(point_text, points))
-        case _:
-            assert_never(path)
 
 
 def number_text(value: float) -> str:

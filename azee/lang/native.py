@@ -33,8 +33,8 @@ class Operand:
     """What stands in one place after an operator.
 
     `kinds` are those that are accepted, any where empty. `words` close a symbol to a few words.
-    With `rest` it takes all that remain, at least `least`. A `default` makes it optional. `raw`
-    hands the function the value itself instead of its content.
+    With `rest` it takes all that remain, at least `least`. Where it is `optional` the function has
+    a default. `raw` hands the function the value itself instead of its content.
     """
 
     name: str
@@ -44,7 +44,6 @@ class Operand:
     rest: bool = False
     least: int = 0
     optional: bool = False
-    default: object = None
     raw: bool = False
     vocabulary: Callable[[str, Span], Fault | None] | None = None
     """Judges a literal symbol before anything is evaluated."""

@@ -11,7 +11,6 @@ from azee.lang.values import Kind
 from azee_solver.geometry import (
     Arc,
     Between,
-    Bone,
     Circle,
     Cross,
     Dir,
@@ -22,10 +21,8 @@ from azee_solver.geometry import (
     Opp,
     Out,
     Path,
-    Point,
     Rotated,
     Scale,
-    Side,
     Straight,
     Through,
     Towards,
@@ -54,98 +51,19 @@ _BONE = Operand("bone", "such as `!palm(s)`", (Kind.BONE,))
 _SIDE = Operand("side", "s, w, L or R", (Kind.SIDE,))
 
 
-def _vec(at: Occurrence, x: float, y: float, z: float) -> Vector:
-    return Vec(x, y, z)
+def _builds(node: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the function of an operator that puts its operands into a node, and no more."""
+    return lambda at, *operands: node(*operands)
 
 
-def _out(at: Occurrence, side: Side) -> Vector:
-    return Out(side)
-
-
-def _in(at: Occurrence, side: Side) -> Vector:
-    return Opp(Out(side))
-
-
-def _dir(at: Occurrence, bone: Bone) -> Vector:
-    return Dir(bone)
-
-
-def _nrm(at: Occurrence, bone: Bone) -> Vector:
-    return Nrm(bone)
-
-
-def _oppvect(at: Occurrence, vector: Vector) -> Vector:
-    return Opp(vector)
-
-
-def _unit(at: Occurrence, vector: Vector) -> Vector:
-    return Unit(vector)
-
-
-def _scale(at: Occurrence, vector: Vector, factor: float) -> Vector:
-    return Scale(vector, factor)
-
-
-def _vsum(at: Occurrence, vectors: tuple[Vector, ...]) -> Vector:
-    return VSum(vectors)
-
-
-def _vdiff(at: Occurrence, left: Vector, right: Vector) -> Vector:
-    return VDiff(left, right)
-
-
-def _cross(at: Occurrence, left: Vector, right: Vector) -> Vector:
-    return Cross(left, right)
-
-
-def _towards(at: Occurrence, start: Point, end: Point) -> Vector:
-    return Towards(start, end)
-
-
-def _rotated(at: Occurrence, vector: Vector, axis: Vector, angle_deg: float) -> Vector:
+def _rotated(vector: Vector, axis: Vector, angle_deg: float) -> Vector:
     return Rotated(vector, axis, math.radians(angle_deg))
-
-
-def _free_point(at: Occurrence, x: float, y: float, z: float) -> Point:
-    return FreePoint(x, y, z)
-
-
-def _vtranslate(at: Occurrence, point: Point, vector: Vector) -> Point:
-    return VTranslate(point, vector)
-
-
-def _between(at: Occurrence, start: Point, end: Point, fraction: float) -> Point:
-    return Between(start, end, fraction)
-
-
-def _midpoint(at: Occurrence, start: Point, end: Point) -> Point:
-    return Between(start, end, 0.5)
-
-
-def _joint(at: Occurrence, bone: Bone) -> Point:
-    return JointPoint(bone)
-
-
-def _moving(at: Occurrence, path: Path, start: Point, end: Point) -> Point:
-    return Moving(path, start, end)
-
-
-def _straight(at: Occurrence) -> Path:
-    return Straight()
-
-
-def _arc(at: Occurrence, bulge: Vector) -> Path:
-    return Arc(bulge)
 
 
 def _circle(at: Occurrence, axis: Vector, radius_m: float, turns: float = 1.0) -> Path:
     if radius_m <= 0:
         raise at.fault("number-range", "the radius of a circle is greater than 0", "radius")
     return Circle(axis, radius_m, turns)
-
-
-def _through(at: Occurrence, points: tuple[Point, ...]) -> Path:
-    return Through(points)
 
 
 def _native(
@@ -155,6 +73,7 @@ def _native(
     result: Kind,
     function: Callable[..., Any],
     example: str,
+    *,
     published: bool = False,
     only_name_published: bool = False,
 ) -> Native:
@@ -183,7 +102,7 @@ OPERATORS = (
         "A vector in the signer's frame.",
         _XYZ,
         Kind.VECTOR,
-        _vec,
+        _builds(Vec),
         "vec 0 .1 0",
         only_name_published=True,
     ),
@@ -192,43 +111,50 @@ OPERATORS = (
         "The direction of a bone in the posture, from its proximal to its distal end.",
         (_BONE,),
         Kind.VECTOR,
-        _dir,
+        _builds(Dir),
         "dir !f_arm(s)",
-        True,
+        published=True,
     ),
     _native(
         "nrm",
         "The normal of a bone in the posture; a hand's points out of its palm.",
         (_BONE,),
         Kind.VECTOR,
-        _nrm,
+        _builds(Nrm),
         "nrm !palm(s)",
-        True,
+        published=True,
     ),
     _native(
         "oppvect",
         "The opposite vector.",
         (_vector(),),
         Kind.VECTOR,
-        _oppvect,
+        _builds(Opp),
         "oppvect (nrm !palm(s))",
-        True,
+        published=True,
     ),
     _native(
         "out",
         "Away from the middle of the body, towards a side.",
         (_SIDE,),
         Kind.VECTOR,
-        _out,
+        _builds(Out),
         "out s",
     ),
-    _native("in", "From a side towards the middle.", (_SIDE,), Kind.VECTOR, _in, "in s"),
+    _native(
+        "in",
+        "From a side towards the middle.",
+        (_SIDE,),
+        Kind.VECTOR,
+        _builds(lambda side: Opp(Out(side))),
+        "in s",
+    ),
     _native(
         "unit",
         "The same direction, of length one.",
         (_vector(),),
         Kind.VECTOR,
-        _unit,
+        _builds(Unit),
         "unit vec(1, 1, 0)",
     ),
     _native(
@@ -236,7 +162,7 @@ OPERATORS = (
         "A vector times a number.",
         (_vector(), _number("factor", "a number")),
         Kind.VECTOR,
-        _scale,
+        _builds(Scale),
         "scale ^up .1",
     ),
     _native(
@@ -244,7 +170,7 @@ OPERATORS = (
         "The sum of vectors.",
         (Operand("vector", "a vector", (Kind.VECTOR,), rest=True, least=1),),
         Kind.VECTOR,
-        _vsum,
+        _builds(VSum),
         "vsum ^up ^fwd",
     ),
     _native(
@@ -252,7 +178,7 @@ OPERATORS = (
         "The first vector minus the second.",
         (_vector("left"), _vector("right")),
         Kind.VECTOR,
-        _vdiff,
+        _builds(VDiff),
         "vdiff ^up ^fwd",
     ),
     _native(
@@ -260,7 +186,7 @@ OPERATORS = (
         "The cross product: square to both, right-handed.",
         (_vector("left"), _vector("right")),
         Kind.VECTOR,
-        _cross,
+        _builds(Cross),
         "cross ^left ^up",
     ),
     _native(
@@ -268,7 +194,7 @@ OPERATORS = (
         "The unit vector from one point to another.",
         (_point("start"), _point("end")),
         Kind.VECTOR,
-        _towards,
+        _builds(Towards),
         "towards @NO ^addressee",
     ),
     _native(
@@ -276,7 +202,7 @@ OPERATORS = (
         "A vector turned about an axis, right-handed, by degrees.",
         (_vector(), _vector("axis"), _number("angle", "degrees")),
         Kind.VECTOR,
-        _rotated,
+        _builds(_rotated),
         "rotated ^fwd ^up 30",
     ),
     _native(
@@ -285,7 +211,7 @@ OPERATORS = (
         "scaled by arm length to the body that plays.",
         _XYZ,
         Kind.POINT,
-        _free_point,
+        _builds(FreePoint),
         "point 0 -.2 .3",
     ),
     _native(
@@ -293,16 +219,16 @@ OPERATORS = (
         "A point moved by a vector, in metres of the reference signer.",
         (_point(), _vector()),
         Kind.POINT,
-        _vtranslate,
+        _builds(VTranslate),
         "vtranslate ^Mssp (scale ^up .1)",
-        True,
+        published=True,
     ),
     _native(
         "between",
         "A point between two, at a fraction of the way.",
         (_point("start"), _point("end"), _number("fraction", "0 is the start, 1 the end")),
         Kind.POINT,
-        _between,
+        _builds(Between),
         "between @CH @FH .3",
     ),
     _native(
@@ -310,7 +236,7 @@ OPERATORS = (
         "The point halfway between two.",
         (_point("start"), _point("end")),
         Kind.POINT,
-        _midpoint,
+        _builds(lambda start, end: Between(start, end, 0.5)),
         "midpoint @CK(L) @CK(R)",
     ),
     _native(
@@ -318,7 +244,7 @@ OPERATORS = (
         "The proximal end of a bone: where it is hinged.",
         (_BONE,),
         Kind.POINT,
-        _joint,
+        _builds(JointPoint),
         "joint !f_arm(s)",
     ),
     _native(
@@ -330,16 +256,16 @@ OPERATORS = (
             _point("end"),
         ),
         Kind.POINT,
-        _moving,
+        _builds(Moving),
         "moving straight ^Rssp ^Lssp",
     ),
-    _native("straight", "The straight path.", (), Kind.PATH, _straight, "straight"),
+    _native("straight", "The straight path.", (), Kind.PATH, _builds(Straight), "straight"),
     _native(
         "arc",
         "A circular arc that bulges along a vector by the length of the vector.",
         (_vector("bulge"),),
         Kind.PATH,
-        _arc,
+        _builds(Arc),
         "arc vec(0, .05, 0)",
     ),
     _native(
@@ -347,7 +273,7 @@ OPERATORS = (
         "The published name of `arc`.",
         (_vector("bulge"),),
         Kind.PATH,
-        _arc,
+        _builds(Arc),
         "arc-vect vec(0, .05, 0)",
         only_name_published=True,
     ),
@@ -357,7 +283,7 @@ OPERATORS = (
         (
             _vector("axis"),
             _number("radius", "metres of the reference signer"),
-            Operand("turns", "how many", (Kind.NUMBER,), optional=True, default=1.0),
+            Operand("turns", "how many", (Kind.NUMBER,), optional=True),
         ),
         Kind.PATH,
         _circle,
@@ -368,7 +294,7 @@ OPERATORS = (
         "A centripetal Catmull–Rom curve through points.",
         (Operand("point", "a point", (Kind.POINT,), rest=True, least=1),),
         Kind.PATH,
-        _through,
+        _builds(Through),
         "through ^Rssp ^Mssp ^Lssp",
     ),
 )

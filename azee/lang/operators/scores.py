@@ -192,7 +192,7 @@ OPERATORS = (
             Operand(
                 "bound", "`'start`, `'end` or a fraction", (Kind.SYMBOL, Kind.NUMBER), raw=True
             ),
-            Operand("offset", "seconds", (Kind.NUMBER,), optional=True, default=0.0),
+            Operand("offset", "seconds", (Kind.NUMBER,), optional=True),
         ),
         _ref,
         "ref 'SIG 'end .1",

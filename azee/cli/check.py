@@ -12,6 +12,7 @@ from azee.cli.body import load_body
 from azee.cli.console import DONE, FAULT, as_json, has_errors, news, show, show_json
 from azee.cli.text import library_option
 from azee.compilation import lacks
+from azee.wording import counted
 from azee_grammar.diagnostic import AZeeError, Severity
 
 if TYPE_CHECKING:
@@ -60,9 +61,5 @@ def _checked(file: str, libraries: Sequence[Path], body: Rig | None) -> Sequence
 def _summary(files: int, found: Sequence[Diagnostic]) -> str:
     errors = sum(d.severity is Severity.ERROR for d in found)
     warnings = len(found) - errors
-    parts = [_count(n, word) for n, word in ((errors, "error"), (warnings, "warning")) if n]
-    return f"{_count(files, 'file')}: {', '.join(parts) or 'no errors'}"
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}" + ("" if number == 1 else "s")
+    parts = [counted(n, word) for n, word in ((errors, "error"), (warnings, "warning")) if n]
+    return f"{counted(files, 'file')}: {', '.join(parts) or 'no errors'}"

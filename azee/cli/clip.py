@@ -12,8 +12,7 @@ import click
 from azee.cli.body import load_body
 from azee.cli.console import news
 from azee.cli.number import Number
-from azee.cli.outcome import size_of
-from azee.cli.outputs import check_outputs, with_suffix
+from azee.cli.outputs import check_outputs, size_of, with_suffix
 from azee.formats import CLIP_WRITERS
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 

@@ -11,7 +11,7 @@ import click
 from azee.cli.body import load_body
 from azee.cli.console import DONE, FAULT, MISSED, as_json, news, show, show_json, working
 from azee.cli.number import Number
-from azee.cli.outcome import outcome
+from azee.cli.outcome import outcome_lines
 from azee.cli.outputs import check_media, check_outputs, with_suffix
 from azee.cli.profile import Profile
 from azee.cli.text import Text, dominant_option, text_options
@@ -166,7 +166,7 @@ def compile_(
         )
     else:
         show(text.warnings)
-        news(outcome(made, files), quiet=quiet)
+        news(outcome_lines(made, files), quiet=quiet)
         if profile:
             watch.show()
     return MISSED if strict and not made.report.met else DONE

@@ -48,6 +48,12 @@ def check_media(media: Path | None, outputs: Iterable[Path]) -> None:
         raise click.UsageError("--media is of ELAN files: name an .eaf with -o")
 
 
+def size_of(path: Path) -> str:
+    """Size of a file in kB or MB, for people."""
+    size = path.stat().st_size
+    return f"{size / 1e6:.1f} MB" if size >= 1e6 else f"{max(1, round(size / 1e3))} kB"
+
+
 def _obstacle(path: Path) -> OSError | None:
     folder = path.resolve().parent
     if path.is_dir():

@@ -13,8 +13,7 @@ from click.core import ParameterSource
 from azee.cli.body import load_body
 from azee.cli.console import bar, news, working
 from azee.cli.number import Number
-from azee.cli.outcome import size_of
-from azee.cli.outputs import check_outputs, with_suffix
+from azee.cli.outputs import check_outputs, size_of, with_suffix
 from azee.cli.text import Text, dominant_option, text_options
 from azee.clips import CLIP_SUFFIXES
 from azee.export.pictures.shots import SHOTS

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from azee.animation import Animation
     from azee.clip.clip import Clip
     from azee.compilation import Compilation
-    from azee.quality.motion_report import ConstraintResult, MotionReport
+    from azee.quality.motion_report import MotionReport
     from azee.score.score import Score
     from azee_rig.rig import Rig
 
@@ -102,13 +102,15 @@ def _moving(shown: Clip, body: Rig, moments: Iterable[float]) -> str:
 
 
 def _table(shown: MotionReport) -> str:
+    from azee.quality.outcome import amount
+
     rows = (
         (
             f"{r.start_s:.2f}–{r.end_s:.2f} s",
             "/".join(r.path),
-            f"{r.subject} {r.target}",
-            _amount(r, r.residual),
-            _amount(r, r.tolerance),
+            r.text,
+            amount(r.residual, r.unit),
+            amount(r.tolerance, r.unit),
             "met" if r.met else r.reason or "not met",
         )
         for r in sorted(shown.constraints, key=lambda r: (r.met, r.start_s, r.path))
@@ -119,18 +121,11 @@ def _table(shown: MotionReport) -> str:
 
 
 def _summary(shown: MotionReport) -> str:
-    missed = sum(not r.met for r in shown.constraints)
-    met = f"{missed} out of tolerance" if missed else "all met"
-    return (
-        f"{shown.duration_s:.2f} s on `{shown.rig}`, {len(shown.postures)} key postures, "
-        f"{len(shown.constraints)} constraints, {met}"
-    )
+    from azee.quality.outcome import outcome
+    from azee.wording import counted
 
-
-def _amount(result: ConstraintResult, value: float | None) -> str:
-    from azee.cli.outcome import amount
-
-    return amount(value, result.unit)
+    keys = counted(len(shown.postures), "key posture")
+    return f"{shown.duration_s:.2f} s on `{shown.rig}`, {keys}, {outcome(shown)}"
 
 
 def _rows(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:

@@ -51,6 +51,11 @@ class ConstraintResult:
     met: bool
     reason: str | None
 
+    @property
+    def text(self) -> str:
+        """The constraint in AZee's notation."""
+        return f"{self.subject} {self.target}"
+
     def as_json(self) -> dict[str, object]:
         """Return it as the report's JSON has it."""
         return {

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from azee.cli.outcome import amount
+from azee.quality.outcome import amount, misses, outcome, shortfall
 from azee.repl.ink import Ink, Line, cut, width
+from azee.wording import counted
 
 if TYPE_CHECKING:
     from azee.quality.motion_report import ConstraintResult, MotionReport
@@ -14,24 +15,15 @@ if TYPE_CHECKING:
 
 def summary(report: MotionReport, took_s: float) -> Iterator[Line]:
     """Tell how long solving took, and name the constraints that are out of tolerance."""
-    missed = [result for result in report.constraints if not result.met]
-    count = len(report.constraints)
-    many = "1 constraint" if count == 1 else f"{count} constraints"
-    postures = len(report.postures)
-    keys = "1 key posture" if postures == 1 else f"{postures} key postures"
-    line = [(Ink.FAINT, f"solved in {took_s:.2f} s: {keys}, {many}, ")]
-    if missed:
-        line.append((Ink.BAD, f"{len(missed)} out of tolerance"))
-    elif count:
-        line.append((Ink.GOOD, "all met"))
-    else:
-        line.append((Ink.FAINT, "nothing to meet"))
-    yield line
+    missed = misses(report)
+    ink = Ink.BAD if missed else Ink.GOOD if report.constraints else Ink.FAINT
+    keys = counted(len(report.postures), "key posture")
+    yield ((Ink.FAINT, f"solved in {took_s:.2f} s: {keys}, "), (ink, outcome(report)))
     for result in missed:
         where = "/".join(result.path)
         yield (
-            (Ink.BAD, f"  {where + ': ' if where else ''}{result.subject} {result.target}"),
-            (Ink.PLAIN, f" off by {amount(result.residual, result.unit)}, {result.reason}"),
+            (Ink.BAD, f"  {where + ': ' if where else ''}{result.text}"),
+            (Ink.PLAIN, f" {shortfall(result)}"),
         )
 
 
@@ -60,7 +52,7 @@ def _cells(result: ConstraintResult) -> tuple[str, ...]:
     return (
         f"{result.start_s:.2f}–{result.end_s:.2f}",
         "/".join(result.path) or result.rule or "",
-        f"{result.subject} {result.target}",
+        result.text,
         amount(result.residual, result.unit),
         amount(result.tolerance, result.unit),
     )

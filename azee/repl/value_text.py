@@ -26,6 +26,7 @@ from azee.lang.values import (
 from azee.repl.diagram import diagram
 from azee.repl.ink import Ink, Line
 from azee.score.score import leaves
+from azee.wording import counted
 from azee_solver.geometry import Bone, NamedPoint, Side, Site
 from azee_solver.notation import (
     constraint_text,
@@ -44,22 +45,20 @@ def value_lines(value: Value, columns: int, *, colour: bool) -> Iterator[Line]:
         case ScoreValue(content=score):
             yield from diagram(score, columns, colour=colour)
             count = sum(1 for _ in leaves(score))
-            blocks = "1 block" if count == 1 else f"{count} blocks"
-            yield ((Ink.FAINT, f"a score of {float(score.duration):.4g} s, {blocks}"),)
+            length = f"{float(score.duration):.4g} s"
+            yield ((Ink.FAINT, f"a score of {length}, {counted(count, 'block')}"),)
         case ConstraintsValue(content=constraints):
             for constraint in constraints[:MOST_LINES]:
                 yield ((Ink.PLAIN, constraint_text(constraint)),)
             yield from _more(len(constraints))
-            many = "1 constraint" if len(constraints) == 1 else f"{len(constraints)} constraints"
-            yield ((Ink.FAINT, many),)
+            yield ((Ink.FAINT, counted(len(constraints), "constraint")),)
         case VectorValue() | PointValue() | PathValue():
             yield ((Ink.PLAIN, short(value)), (Ink.FAINT, f"  {value.kind.value}"))
             yield from _dependence(value.content)
         case OperatorValue(content=operator):
             yield from _operator(operator)
         case ListValue(content=values):
-            many = "1 value" if len(values) == 1 else f"{len(values)} values"
-            yield ((Ink.FAINT, f"a list of {many}"),)
+            yield ((Ink.FAINT, f"a list of {counted(len(values), 'value')}"),)
             for i, element in enumerate(values[:MOST_LINES], 1):
                 kind = (Ink.FAINT, f"  {element.kind.value}")
                 yield ((Ink.FAINT, f"{i:>3}  "), (Ink.PLAIN, short(element)), kind)
@@ -104,7 +103,7 @@ def short(value: Value) -> str:
         case ConstraintsValue(content=constraints):
             if len(constraints) == 1:
                 return constraint_text(constraints[0])
-            return f"{len(constraints)} constraints"
+            return counted(len(constraints), "constraint")
         case ScoreValue(content=score):
             name = f"{score.calls[0].rule}, " if score.calls else ""
             return f"{name}{float(score.duration):.4g} s"

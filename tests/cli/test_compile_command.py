@@ -61,7 +61,7 @@ def test_every_format_from_one_solution(
     for output in [*outputs, "touch.report.json"]:
         assert Path(output).stat().st_size > 500
         assert f"wrote {output} (" in captured.err
-    assert "all constraints are met" in captured.err
+    assert "all 2 constraints are met" in captured.err
     jsonschema.validate(_clip("touch.json"), schema("clip"))
     jsonschema.validate(_clip("touch.report.json"), schema("report"))
 
@@ -97,7 +97,7 @@ def test_the_published_method_counts_its_iterations(capsys: pytest.CaptureFixtur
     report = _clip("r.json")
     jsonschema.validate(report, schema("report"))
     counts = [problem["iterations"] for problem in report["problems"]]
-    assert f"{len(counts)} IK problems in {sum(counts)} iterations" in capsys.readouterr().err
+    assert f"1 IK problem in {sum(counts)} iterations" in capsys.readouterr().err
     made = azee.compile(Path("touch.azee"), solver="two-level")
     assert made.report.as_json()["problems"] == report["problems"]
 
@@ -166,7 +166,7 @@ def test_a_miss_is_named_and_strict_makes_it_count(capsys: pytest.CaptureFixture
     assert capsys.readouterr().err == ""
     assert run(["compile", "far.azee", "-o", "far.bvh", "--strict"]) == 3
     told = capsys.readouterr().err
-    assert "1 constraint is out of tolerance" in told
+    assert "1 constraint is out of tolerance:" in told
     assert "place @PA(s)" in told
     assert "mm" in told
     assert Path("far.bvh").exists()

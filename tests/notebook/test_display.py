@@ -33,7 +33,7 @@ def test_each_kind_shows_itself(made: azee.Compilation, signer: Rig) -> None:
     assert str(display.score(made.score)["image/svg+xml"]).startswith("<svg")
     whole = str(display.compilation(made)["text/html"])
     assert all(part in whole for part in ("<svg", "<iframe", "data:image/png", "place @I_TIP(s)"))
-    assert "all met" in str(display.report(made.report)["text/plain"])
+    assert "1 constraint is met" in str(display.report(made.report)["text/plain"])
     assert "<iframe" in str(display.clip(made.clip)["text/html"])
     assert "44 bones" in str(display.rig(signer)["text/plain"])
 

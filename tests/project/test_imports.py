@@ -55,7 +55,8 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee_solver", "azee_rig", "numpy"),
     },
     "azee.motion": set(),
-    "azee.quality": {"azee.motion", "azee_solver", "azee_rig", "numpy"},
+    "azee.wording": set(),
+    "azee.quality": {"azee.motion", "azee.wording", "azee_solver", "azee_rig", "numpy"},
     "azee.animation": {"azee.clip", "azee.motion", "azee.quality", "azee.score"}
     | {"azee_solver", "azee_rig", "numpy"},
     "azee.export": {"azee.score", "azee.motion.tasks", "azee_rig"} | DECLARATIONS,

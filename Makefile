@@ -49,7 +49,7 @@ fuzz: $(READY) ## look for texts that break the language, for SECONDS=60; on Lin
 	@$(RUN) -c "import atheris" 2>/dev/null || $(RUN) -m pip install --quiet -c constraints.txt atheris
 	@$(RUN) tests/fuzz/search.py $(SECONDS)
 
-examples: $(READY) ## every example as GLB, BVH, JSON, SVG and PNG, into out/examples
+examples: $(READY) ## every example in every format but films, into out/examples
 	@$(RUN) examples/build.py --out out/examples
 
 films: $(READY) ## a film of every example, and a sheet of its key postures, into out/films

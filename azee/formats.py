@@ -1,8 +1,12 @@
-"""The formats that clips and animations are saved in, by suffix; writers are loaded when used."""
+"""The formats of clips, scores and animations, by suffix; writers are loaded when used.
+
+These tables are the only lists of formats: help texts are made from them, and a test holds the
+pages of the manual to them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
@@ -12,6 +16,8 @@ from azee_grammar.diagnostic import AZeeError, Diagnostic
 if TYPE_CHECKING:
     from azee.animation import Animation
     from azee.clip.clip import Clip
+    from azee.export.track_rows import Row
+    from azee.motion.tasks.tracks import Track
     from azee.score.score import Score
     from azee_rig.rig import Rig
 
@@ -101,11 +107,28 @@ def filming() -> Iterator[None]:
         raise AZeeError(Diagnostic("clip-times", str(error), None)) from error
 
 
-def _svg(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
+def _score_svg(score: Score, rows: Sequence[Row], media: Path | None, path: Path) -> None:
     from azee.export.pictures.score_svg import write_svg
+
+    write_svg(score, path, rows)
+
+
+def _score_png(score: Score, rows: Sequence[Row], media: Path | None, path: Path) -> None:
+    from azee.export.pictures.score_png import write_score_png
+
+    write_score_png(score, path, rows)
+
+
+def _score_eaf(score: Score, rows: Sequence[Row], media: Path | None, path: Path) -> None:
+    from azee.export.formats.eaf import write_eaf
+
+    write_eaf(score, path, rows, media=media)
+
+
+def _svg(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
     from azee.export.track_rows import track_rows
 
-    write_svg(score, path, track_rows(animation.tracks))
+    _score_svg(score, track_rows(animation.tracks), None, path)
 
 
 def _eaf(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
@@ -131,11 +154,36 @@ def _of_clip(write: ClipWriter) -> Writer:
     return lambda score, rig, animation, path: write(animation.clip, rig, path)
 
 
+def save_score(
+    score: Score, path: str | Path, tracks: Sequence[Track] = (), media: Path | None = None
+) -> None:
+    """Draw a score or write it for ELAN; the suffix names the format: one of `SCORE_WRITERS`.
+
+    Args: tracks: which blocks key which part of the body, where it was solved. media: the film
+        that an ELAN file shows beside the score.
+    Raises: AZeeError: cannot-write. ValueError: no format has that suffix.
+    """
+    from azee.export.track_rows import track_rows
+
+    write = SCORE_WRITERS.get(Path(path).suffix.lower())
+    if write is None:
+        raise ValueError(f"no format has the suffix of {path}; known are {' '.join(SCORE_WRITERS)}")
+    with writing(path):
+        write(score, track_rows(tracks), media, Path(path))
+
+
 ClipWriter: TypeAlias = "Callable[[Clip, Rig, Path], None]"
+ScoreWriter: TypeAlias = "Callable[[Score, Sequence[Row], Path | None, Path], None]"
 Writer: TypeAlias = "Callable[[Score, Rig, Animation, Path], None]"
 
 CLIP_WRITERS: dict[str, ClipWriter] = {".glb": _glb, ".bvh": _bvh, ".json": _json, ".npz": _npz}
 """Formats of a clip alone."""
+SCORE_WRITERS: dict[str, ScoreWriter] = {
+    ".svg": _score_svg,
+    ".png": _score_png,
+    ".eaf": _score_eaf,
+}
+"""Formats of a score alone."""
 WRITERS: dict[str, Writer] = {
     **{suffix: _of_clip(write) for suffix, write in CLIP_WRITERS.items()},
     ".svg": _svg,
@@ -147,4 +195,6 @@ SUFFIXES = tuple(WRITERS)
 """Suffixes of the formats that a compilation can be saved in, but for films."""
 FILM_SUFFIXES = (".mp4", ".webm")
 """Suffixes of films, which take longer and need the extra `film`."""
+RENDER_SUFFIXES = (".png", *FILM_SUFFIXES)
+"""Suffixes of what shows the body: pictures and films."""
 WRITERS |= dict.fromkeys(FILM_SUFFIXES, _film)

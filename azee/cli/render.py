@@ -17,7 +17,7 @@ from azee.cli.outputs import check_outputs, size_of, with_suffix
 from azee.cli.text import Text, dominant_option, text_options
 from azee.clips import CLIP_SUFFIXES
 from azee.export.pictures.shots import SHOTS
-from azee.formats import FILM_SUFFIXES, filming, writing
+from azee.formats import FILM_SUFFIXES, RENDER_SUFFIXES, filming, writing
 
 if TYPE_CHECKING:
     from azee.clip.clip import Clip
@@ -55,8 +55,8 @@ def _moments(_: click.Context, __: click.Parameter, values: Sequence[str]) -> tu
     multiple=True,
     required=True,
     type=click.Path(path_type=Path),
-    callback=with_suffix(".png", *FILM_SUFFIXES),
-    help="A picture (.png) or a film (.mp4 .webm); repeatable: all show one solution.",
+    callback=with_suffix(*RENDER_SUFFIXES),
+    help=f"A picture or a film: {' '.join(RENDER_SUFFIXES)}. Repeatable: all show one solution.",
 )
 @click.option(
     "--camera",

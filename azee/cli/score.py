@@ -11,7 +11,7 @@ import click
 from azee.cli.console import working
 from azee.cli.outputs import check_media, check_outputs, with_suffix
 from azee.cli.text import Text, dominant_option, text_options
-from azee.formats import writing
+from azee.formats import SCORE_WRITERS, save_score
 
 if TYPE_CHECKING:
     from azee.compilation import Hand
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     metavar="OUT",
     multiple=True,
     type=click.Path(path_type=Path),
-    callback=with_suffix(".svg", ".png", ".eaf"),
-    help="Draw it into a file instead, nested and flattened (.svg .png), or write it for ELAN "
-    "(.eaf); repeatable.",
+    callback=with_suffix(*SCORE_WRITERS),
+    help="A file to write instead: a drawing, nested and flattened, or a file for ELAN; "
+    f"{' '.join(SCORE_WRITERS)}. Repeatable.",
 )
 @click.option(
     "--tracks",
@@ -79,25 +79,7 @@ def score(
         return
     keyed = _tracks(found, rig, dominant, mode) if tracks else ()
     for path in outputs:
-        with writing(path):
-            _write(found, path, keyed, media)
-
-
-def _write(found: Score, path: Path, keyed: Sequence[Track], media: Path | None) -> None:
-    from azee.export.track_rows import track_rows
-
-    if path.suffix.lower() == ".svg":
-        from azee.export.pictures.score_svg import write_svg
-
-        write_svg(found, path, track_rows(keyed))
-    elif path.suffix.lower() == ".eaf":
-        from azee.export.formats.eaf import write_eaf
-
-        write_eaf(found, path, track_rows(keyed), media=media)
-    else:
-        from azee.export.pictures.score_png import write_score_png
-
-        write_score_png(found, path, track_rows(keyed))
+        save_score(found, path, keyed, media)
 
 
 def _tracks(found: Score, rig: str, dominant: Hand, mode: Mode) -> Sequence[Track]:

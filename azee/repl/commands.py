@@ -6,12 +6,12 @@ No operator of AZee begins with `/`. A rule whose name does is still applied by 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from azee.formats import FILM_SUFFIXES, SUFFIXES, writing
+from azee.formats import SCORE_WRITERS, WRITERS, save_score
 from azee.repl.ink import Ink, Line
 from azee.repl.performer import required
 from azee.repl.refusal import Refusal
@@ -125,21 +125,14 @@ def _reload(repl: Repl, argument: str) -> None:
 
 
 def _score(repl: Repl, argument: str) -> None:
-    from azee.export.pictures.score_svg import write_svg
     from azee.export.score_text import tree
 
     score = _last_score(repl)
     if not argument:
         repl.screen.put(tree(score))
         return
-    path = _output(argument, (".svg", ".png"))
-    with writing(path):
-        if path.suffix.lower() == ".svg":
-            write_svg(score, path)
-        else:
-            from azee.export.pictures.score_png import write_score_png
-
-            write_score_png(score, path)
+    path = _output(argument, SCORE_WRITERS)
+    save_score(score, path)
     repl.screen.say(f"wrote {path}")
 
 
@@ -172,7 +165,7 @@ def _render(repl: Repl, argument: str) -> None:
 def _save(repl: Repl, argument: str) -> None:
     from azee.repl.saved import save_text
 
-    path = _output(argument, (".azee", *SUFFIXES, *FILM_SUFFIXES))
+    path = _output(argument, (".azee", *WRITERS))
     if path.suffix == ".azee":
         save_text(repl.session, path)
     else:
@@ -239,7 +232,7 @@ def _needed(argument: str, pattern: str) -> str:
     return argument
 
 
-def _output(argument: str, suffixes: tuple[str, ...]) -> Path:
+def _output(argument: str, suffixes: Collection[str]) -> Path:
     """Return the path of a file to write. Raises: Refusal: its suffix names no format."""
     path = Path(_needed(argument, f"its suffix is the format: {' '.join(suffixes)}")).expanduser()
     if path.suffix.lower() not in suffixes:
@@ -260,7 +253,9 @@ COMMANDS: Mapping[str, Command] = {
     ),
     "doc": Command("/doc NAME", "what a rule, operator, bone, site, morph or constant means", _doc),
     "score": Command(
-        "/score [FILE.svg|.png]", "the last score with its constraints, or drawn", _score
+        f"/score [FILE{'|'.join(SCORE_WRITERS)}]",
+        "the last score with its constraints; or drawn, or for ELAN",
+        _score,
     ),
     "solve": Command(
         "/solve [on|off]", "how well each constraint is met; on: after every score", _solve
@@ -270,7 +265,7 @@ COMMANDS: Mapping[str, Command] = {
     ),
     "save": Command(
         "/save FILE",
-        f"what was typed as .azee; the last score as {' '.join((*SUFFIXES, *FILM_SUFFIXES))}",
+        f"what was typed as .azee; the last score as {' '.join(WRITERS)}",
         _save,
     ),
     "time": Command("/time [EXPRESSION]", "how long evaluating and solving take", _time),

@@ -43,7 +43,7 @@ below it is how well each constraint is met.""",
         azee.compile(":info-about(:cinema, :well)\\n")
     except azee.AZeeError as error:
         print("\\n".join(error._render_traceback_()))""",
-    """The same files as everywhere: `.glb`, `.bvh`, `.json`, `.svg`, `.png`.""",
+    """The same files as everywhere; the suffix is the format.""",
     """    made.save("sentence.glb")
     made.save("sentence.bvh")""",
 )

@@ -70,7 +70,7 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee.clip", "azee.score", "azee_rig", "numpy", "PIL", "numba", "av"),
         *DECLARATIONS,
     },
-    "azee.formats": {"azee.animation", "azee.clip", "azee.export", "azee.score"}
+    "azee.formats": {"azee.animation", "azee.clip", "azee.export", "azee.motion", "azee.score"}
     | {"azee_grammar", "azee_rig"},
     "azee.clips": {"azee.clip", "azee.formats", "azee_grammar", "azee_rig"},
     "azee.compilation": {

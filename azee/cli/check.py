@@ -10,7 +10,7 @@ import click
 
 from azee.cli.body import load_body
 from azee.cli.console import DONE, FAULT, as_json, has_errors, news, show, show_json
-from azee.cli.text import library_option
+from azee.cli.text import Text, expression_option, library_option
 from azee.compilation import lacks
 from azee.wording import counted
 from azee_grammar.diagnostic import AZeeError, Severity
@@ -21,45 +21,59 @@ if TYPE_CHECKING:
 
 
 @click.command(short_help="What is wrong with texts.")
-@click.argument("files", nargs=-1, required=True, metavar="FILE…")
+@click.argument("files", nargs=-1, metavar="[FILE…]")
+@expression_option
 @library_option
 @click.option("--rig", metavar="R", help="Also look whether this body has all that is named.")
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
 @click.option("--quiet", is_flag=True, help="Only the exit code and the errors.")
 def check(
-    files: Sequence[str], libraries: Sequence[Path], rig: str | None, form: str, quiet: bool
+    files: Sequence[str],
+    expression: str | None,
+    libraries: Sequence[Path],
+    rig: str | None,
+    form: str,
+    quiet: bool,
 ) -> int:
-    """Check syntax and evaluation of each FILE (`-` is standard input).
+    """Check syntax and evaluation of each FILE (`-` is standard input), or of an expression.
 
     Exit codes: 0 no errors (warnings are none), 1 errors, 2 wrong use.
     """
+    if expression is not None and len(files) > 1:
+        raise click.UsageError("-e sees the rules of one FILE")
     body = None if rig is None else load_body(rig)
-    found = [diagnostic for file in files for diagnostic in _checked(file, libraries, body)]
+    texts: Sequence[str | None] = files or [None]
+    found = [d for file in texts for d in _checked(file, expression, libraries, body)]
     if form == "json":
         show_json({"diagnostics": as_json(found)})
     else:
         show(found)
-        news(_summary(len(files), found), quiet=quiet)
+        news(_summary(len(files), expression is not None, found), quiet=quiet)
     return FAULT if has_errors(found) else DONE
 
 
-def _checked(file: str, libraries: Sequence[Path], body: Rig | None) -> Sequence[Diagnostic]:
-    from azee.lang.program import load
-    from azee_grammar.files import read_source
-
+def _checked(
+    file: str | None, expression: str | None, libraries: Sequence[Path], body: Rig | None
+) -> Sequence[Diagnostic]:
+    """Return what is wrong with a text, then what is wrong with an expression that sees it."""
+    found: Sequence[Diagnostic] = ()
     try:
-        program = load(read_source(file), libraries)
+        program = Text.read(file, expression, None, libraries).program
         found = program.check()
-        if body is None or has_errors(found):
+        if has_errors(found) or (expression is None and body is None):
             return found
-        bound = (lacks(utterance.score, body) for utterance in program.utterances)
-        return [*found, *(diagnostic for lacking in bound for diagnostic in lacking)]
+        scores = program.utterances if expression is None else [program.evaluate(expression)]
+        if body is None:
+            return found
+        return [*found, *(lacking for score in scores for lacking in lacks(score.score, body))]
     except AZeeError as error:
-        return error.diagnostics
+        return [*found, *error.diagnostics]
 
 
-def _summary(files: int, found: Sequence[Diagnostic]) -> str:
+def _summary(files: int, expression: bool, found: Sequence[Diagnostic]) -> str:
     errors = sum(d.severity is Severity.ERROR for d in found)
     warnings = len(found) - errors
     parts = [counted(n, word) for n, word in ((errors, "error"), (warnings, "warning")) if n]
-    return f"{counted(files, 'file')}: {', '.join(parts) or 'no errors'}"
+    read = ((files, "file"), (int(expression), "expression"))
+    texts = " and ".join(counted(n, word) for n, word in read if n)
+    return f"{texts}: {', '.join(parts) or 'no errors'}"

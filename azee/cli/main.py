@@ -113,3 +113,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         show([Diagnostic("cannot-write", f"cannot write standard output: {reason}", None)])
         return FAULT
     return code if isinstance(code, int) else DONE
+
+
+if __name__ == "__main__":
+    main()

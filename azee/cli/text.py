@@ -30,6 +30,14 @@ library_option = click.option(
 )
 """`--library DIR`, of every command that reads rules."""
 
+expression_option = click.option(
+    "-e",
+    "expression",
+    metavar="EXPR",
+    help="An expression, instead of FILE's utterances; it sees FILE's rules.",
+)
+"""`-e EXPR`, of every command that reads a text or an expression."""
+
 dominant_option = click.option(
     "--dominant",
     type=click.Choice(["right", "left"]),
@@ -44,12 +52,7 @@ def text_options(command: Command) -> Command:
     """Add the argument FILE and the options -e, --utterance and --library to a command."""
     options = (
         click.argument("file", required=False, metavar="[FILE]"),
-        click.option(
-            "-e",
-            "expression",
-            metavar="EXPR",
-            help="An expression, instead of FILE's utterances; it sees FILE's rules.",
-        ),
+        expression_option,
         click.option(
             "--utterance",
             metavar="N",

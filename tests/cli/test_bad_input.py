@@ -193,6 +193,11 @@ def test_the_process_itself_shows_no_traceback(python: Python) -> None:
     assert done.stdout == ""
 
 
+@pytest.mark.parametrize("module", ["azee", "azee.cli.main"])
+def test_the_command_is_a_module_that_runs(module: str, python: Python) -> None:
+    assert python("-m", module, "--version", expect=0).stdout.startswith("azee, version ")
+
+
 def test_bytes_that_are_no_text_on_standard_input(python: Python) -> None:
     done = python("-m", "azee", "check", "-", stdin=b"\xff\xfe\x00\x01", expect=1)
     assert "error[not-utf8]" in done.stderr

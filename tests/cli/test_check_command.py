@@ -60,6 +60,35 @@ def test_json_without_faults(capsys: pytest.CaptureFixture[str]) -> None:
     assert json.loads(capsys.readouterr().out) == {"diagnostics": []}
 
 
+def test_an_expression_is_checked(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "-e", ":bonjour"]) == 0
+    assert capsys.readouterr().err == "1 expression: no errors\n"
+    assert run(["check", "-e", "key 1 (place @CHIN_TIP ^Mssp)"]) == 1
+    told = capsys.readouterr().err
+    assert "error[unknown-site]: AZee has no site `@CHIN_TIP`\n --> <expression>:1:14\n" in told
+    assert told.endswith("1 expression: 1 error\n")
+    assert run(["check", "-e", "^up"]) == 1
+    assert "error[not-a-score]" in capsys.readouterr().err
+
+
+def test_an_expression_sees_the_rules_of_a_file(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("rules.azee").write_text("def here\n    key 1 (look ^fwd)\n", encoding="utf-8")
+    assert run(["check", "rules.azee", "-e", ":here"]) == 0
+    assert capsys.readouterr().err == "1 file and 1 expression: no errors\n"
+    assert run(["check", "--format", "json", "rules.azee", "-e", ":there"]) == 1
+    (problem,) = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert (problem["code"], problem["file"]) == ("unknown-rule", "<expression>")
+    assert run(["check", "faulty.azee", "-e", ":bonjour"]) == 1
+    assert capsys.readouterr().err.count("error[") == 2
+
+
+def test_an_expression_goes_with_one_file(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "fine.azee", "faulty.azee", "-e", ":bonjour"]) == 2
+    assert "-e sees the rules of one FILE" in capsys.readouterr().err
+    assert run(["check"]) == 2
+    assert "name a FILE (`-` is standard input) or give an expression" in capsys.readouterr().err
+
+
 def test_a_text_is_bound_to_a_body_when_asked(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -76,6 +105,8 @@ def test_a_text_is_bound_to_a_body_when_asked(
     told = capsys.readouterr().err
     assert "error[rig-lacks-site]: the rig `signer` has no site `CH`" in told
     assert "note: written at touch.azee:1:8" in told
+    assert run(["check", "--quiet", "--rig", "signer", "-e", "key 1 (place @I_TIP(s) @CH)"]) == 1
+    assert "error[rig-lacks-site]" in capsys.readouterr().err
 
 
 def test_colours_only_where_somebody_looks(

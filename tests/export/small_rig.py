@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
-
 import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.clip import Clip, Label
 from azee_rig.mesh import BodyMesh, Part
-from azee_rig.rig import Rig
 from azee_rig.skeleton import Pose, Skeleton
 
 OFFSETS = [[0, 1, 0.02], [0, 0.3, 0], [0.2, 0, 0], [0.3, 0, 0.1], [0.3, 0, 0], [0, 0.2, 0]]
@@ -17,16 +14,13 @@ MOVES = [[0, 0, 0.02], [0, 0.01, 0], [0, 0, 0.03], [0.01, 0, 0], [0, 0, 1.0]]
 
 
 class SmallRig:
-    """As much of a rig as writers read. Its coordinates are the quaternions themselves."""
+    """As much of a rig as writers of files read. Its coordinates are the quaternions themselves."""
 
     name = "small"
-    units = ("smile", "blink", "idle unit")
     skeleton = Skeleton(
         ("root", "spine.01", "arm.L", "hand-1.L", "hand_1.L", "head"),
-        cast(Any, [-1, 0, 1, 2, 2, 1]),
-        cast(
-            Any, [[0, 1, 0.02], [0, 0.3, 0], [0.2, 0, 0], [0.3, 0, 0.1], [0.3, 0, 0], [0, 0.2, 0]]
-        ),
+        np.array([-1, 0, 1, 2, 2, 1]),
+        np.array(OFFSETS),
     )
 
     def pose(self, q: NDArray[np.float64]) -> Pose:
@@ -62,18 +56,15 @@ class SmallRig:
             colours=np.linspace(0, 1, 36).reshape(12, 3),
             joints=joints,
             weights=influences,
-            units=self.units,
+            units=("smile", "blink", "idle unit"),
             unit_start=np.array([0, 2, 5, 5]),
             unit_rows=np.array([8, 7, 10, 9, 11]),
-            unit_deltas=np.array(
-                [[0, 0, 0.02], [0, 0.01, 0], [0, 0, 0.03], [0.01, 0, 0], [0, 0, 1.0]]
-            ),
+            unit_deltas=np.array(MOVES),
             joint_count=6,
         )
 
 
-SMALL = cast(Rig, SmallRig())
-"""The small rig, in the place of a real one."""
+SMALL = SmallRig()
 
 
 def tumbling() -> Clip:

@@ -15,7 +15,7 @@ from small_rig import SMALL, tumbling
 
 from azee.clip.clip import Clip
 from azee.export.formats.bvh import write_bvh
-from azee_rig.rig import Rig
+from azee.export.formats.moving_body import MovingBody
 
 MILLIMETRE = 1e-3
 CENTIMETRE = 1e-2
@@ -33,7 +33,7 @@ def file(clip: Clip, tmp_path: Path) -> Path:
     return path
 
 
-def _ours(clip: Clip, rig: Rig = SMALL) -> NDArray[np.float64]:
+def _ours(clip: Clip, rig: MovingBody = SMALL) -> NDArray[np.float64]:
     return rig.joint_positions(rig.pose(clip.coordinates))
 
 

@@ -18,6 +18,7 @@ from small_rig import SMALL, tumbling
 
 from azee.clip.clip import Clip, Label
 from azee.export.formats.glb import write_glb
+from azee.export.formats.moving_body import MovingBody
 from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Rig
 from azee_rig.skin import skin
@@ -146,7 +147,7 @@ def test_three_js_in_a_browser_sees_our_body(
     browser: Node, body: str, request: pytest.FixtureRequest
 ) -> None:
     path: Path = request.getfixturevalue(f"{body}_file")
-    rig: Rig = SMALL if body == "small" else request.getfixturevalue("signer")
+    rig: MovingBody = SMALL if body == "small" else request.getfixturevalue("signer")
     clip: Clip = tumbling() if body == "small" else request.getfixturevalue("signing")
     step = 1 if body == "small" else 5
     frames = [0, len(clip.times) // 3, len(clip.times) // 2, len(clip.times) - 1]
@@ -168,8 +169,8 @@ def test_three_js_in_a_browser_sees_our_body(
             assert np.abs(position - ours[name]).max() < MILLIMETRE, name
         if body == "small":
             continue
-        units = np.zeros(len(rig.units))
-        units[[rig.units.index(unit) for unit in clip.units]] = clip.unit_weights[frame]
+        units = np.zeros(len(rig.mesh.units))
+        units[[rig.mesh.units.index(unit) for unit in clip.units]] = clip.unit_weights[frame]
         skinned = skin(_with_four_influences(rig.mesh), rig.skeleton, pose, units)
         for part, vertices in zip(rig.mesh.parts, at["vertices"], strict=True):
             used = np.unique(rig.mesh.triangles[part.start : part.stop])[::step]

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from azee.clip.clip import Clip
 from azee.export.files import replace_file
 from azee.export.formats.euler import EulerZXY
-from azee_rig.rig import Rig
+from azee.export.formats.moving_body import MovingBody
 from azee_rig.skeleton import Skeleton
 
 CENTIMETRES = 100.0
@@ -34,7 +34,7 @@ ONE_FRAME_S = 1 / 30
 """Frame time of a still."""
 
 
-def write_bvh(clip: Clip, rig: Rig, path: str | Path) -> None:
+def write_bvh(clip: Clip, rig: MovingBody, path: str | Path) -> None:
     """Write a clip's skeleton and joint rotations, one line a frame.
 
     Raises: OSError: the file cannot be written. ValueError: the clip's frames are not evenly

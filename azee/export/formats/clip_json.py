@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from azee.clip.clip import Clip
 from azee.export.files import replace_file
-from azee_rig.rig import Rig
+from azee.export.formats.moving_body import MovingBody
 
 METRES = 6
 QUATERNION = 8
 """Decimals that are written."""
 
 
-def write_json(clip: Clip, rig: Rig, path: str | Path) -> None:
+def write_json(clip: Clip, rig: MovingBody, path: str | Path) -> None:
     """Write a clip as JSON, a line a property.
 
     Raises: OSError: the file cannot be written.
@@ -32,7 +32,7 @@ def write_json(clip: Clip, rig: Rig, path: str | Path) -> None:
         file.write(("{\n" + ",\n".join(lines) + "\n}\n").encode())
 
 
-def clip_document(clip: Clip, rig: Rig) -> dict[str, Any]:
+def clip_document(clip: Clip, rig: MovingBody) -> dict[str, Any]:
     """Return what `write_json` writes, as plain dictionaries and lists.
 
     Quaternions are xyzw here, as in glTF, and the document says so.

@@ -10,10 +10,10 @@ from azee.export.formats.gltf.animation import add_animation
 from azee.export.formats.gltf.document import Document
 from azee.export.formats.gltf.mesh import add_mesh
 from azee.export.formats.gltf.skin import add_joints, add_skin
-from azee_rig.rig import Rig
+from azee.export.formats.moving_body import MovingBody
 
 
-def write_glb(clip: Clip, rig: Rig, path: str | Path) -> None:
+def write_glb(clip: Clip, rig: MovingBody, path: str | Path) -> None:
     """Write a GLB that any glTF viewer plays.
 
     Joints keep the rig's names and rest posture; morph targets are the rig's face units, by name;

@@ -17,10 +17,10 @@ from pathlib import Path
 
 import numpy as np
 
-from azee.cli.rules import _example
 from azee.compilation import perform, score_of
 from azee.lang.library import shipped_library
 from azee.lang.program import evaluate_expression, load
+from azee.lang.rule_example import example_of
 from azee.motion.tasks.key_posture import KeyPosture
 from azee.score.score import Score
 from azee_grammar.files import read_source
@@ -58,7 +58,7 @@ def scores(names: list[str]) -> Iterator[tuple[str, Score]]:
     for library in shipped_names():
         for rule in shipped_library(library).namespace.rules.values():
             if not names or rule.name in names:
-                yield f":{rule.name}", evaluate_expression(_example(rule, ())).score
+                yield f":{rule.name}", evaluate_expression(example_of(rule)).score
 
 
 def findings(sign: str, score: Score, rig: Rig) -> Iterator[Finding]:

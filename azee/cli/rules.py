@@ -104,6 +104,8 @@ def _listed(library: str, found: Sequence[Rule]) -> str:
 
 
 def _shown(rule: Rule, libraries: Sequence[Path]) -> Iterator[str]:
+    from azee.lang.rule_example import example_of
+
     yield f":{rule.name}"
     yield from _field("library", rule.library or "")
     for entry in ("meaning", "source"):
@@ -114,27 +116,7 @@ def _shown(rule: Rule, libraries: Sequence[Path]) -> Iterator[str]:
         if parameter.default is not None:
             default = f"by default {' '.join(parameter.default.span.text.split())}"
         yield from _field("" if i else "arguments", f"'{parameter.name}  {default}")
-    yield from _field("example", _example(rule, libraries))
-
-
-def _example(rule: Rule, libraries: Sequence[Path]) -> str:
-    """Return the rule's own example, else its application, which needs no argument."""
-    if own := rule.entry("example"):
-        return own
-    given = ", ".join(f"'{name} = …" for name, mandatory in rule.parameters if mandatory)
-    if given:
-        return f":{rule.name}({given})"
-    return f"key(1, :#{rule.name})" if _is_posture(rule, libraries) else f":{rule.name}"
-
-
-def _is_posture(rule: Rule, libraries: Sequence[Path]) -> bool:
-    """Whether the rule's result is a set of constraints, which a key makes a score of."""
-    from azee.lang.program import load
-    from azee.lang.values import Kind
-    from azee_grammar.source import Source
-
-    program = load(Source("<none>", f"use '{rule.library}\n"), libraries)
-    return program.value(f":{rule.name}").kind is Kind.CONSTRAINTS
+    yield from _field("example", example_of(rule, libraries))
 
 
 def _field(name: str, text: str) -> Sequence[str]:

@@ -10,64 +10,67 @@ READY := $(ENV)/.ready
 PACKAGES := tests/node/node_modules/.package-lock.json
 TYPED := tests benchmarks examples
 
-.PHONY: motion-table help demo test check format bench bench-solver bench-blender fuzz examples films pictures wheel-test node
+.PHONY: motion-table readme-picture help demo test check format bench bench-solver bench-blender fuzz examples films pictures wheel-test node
 
-help: ## what there is
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
+help: ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
-demo: $(READY) ## compile an example; prints where the GLB, the BVH and the picture are
+demo: $(READY) ## compile an example; print where the GLB, the BVH and the picture are
 	@$(RUN) examples/build.py --out out/demo --only person-aged-52
 
-test: $(READY) node ## all tests; those for Node and Chromium where these are installed
+test: $(READY) node ## run all tests; those for Node and Chromium if these are installed
 	@$(RUN) -m pytest
 
-check: $(READY) ## format, lint, types and the fast tests: before every commit
+check: $(READY) ## check format, lint and types and run the fast tests; use before every commit
 	@$(RUN) -m ruff format --check .
 	@$(RUN) -m ruff check .
 	@$(RUN) -m mypy
 	@$(RUN) -m mypy $(wildcard $(addsuffix /**/*.py,$(TYPED)) $(addsuffix /*.py,$(TYPED)))
 	@$(RUN) -m pytest -q -n auto -m "not slow and not node and not browser"
 
-format: $(READY) ## put every file into the one format
+format: $(READY) ## format all files
 	@$(RUN) -m ruff format .
 	@$(RUN) -m ruff check --fix .
 
-bench: $(READY) ## how long things take
+bench: $(READY) ## measure how long things take
 	@$(RUN) benchmarks/run.py
 
-bench-solver: $(READY) ## inverse kinematics by ours, the published and other methods
+bench-solver: $(READY) ## compare the solver with the published and other methods
 	@mkdir -p out
 	@$(RUN) benchmarks/run.py solver --json out/solver.json
 
-bench-blender: $(READY) ## the same, after installing Blender and pinocchio for themselves, 1 GB
+bench-blender: $(READY) ## compare it with Blender and pinocchio too; installs them (1 GB)
 	@mkdir -p out
 	@$(RUN) benchmarks/run.py solver --prepare --json out/solver.json
 	@$(RUN) benchmarks/editor.py
 
 SECONDS ?= 60
-fuzz: $(READY) ## look for texts that break the language, for SECONDS=60; on Linux
+fuzz: $(READY) ## search for texts that break the language, for SECONDS=60; on Linux
 	@$(RUN) -c "import atheris" 2>/dev/null || $(RUN) -m pip install --quiet -c constraints.txt atheris
 	@$(RUN) tests/fuzz/search.py $(SECONDS)
 
-examples: $(READY) ## every example in every format but films, into out/examples
+examples: $(READY) ## compile every example to every format but films, into out/examples
 	@$(RUN) examples/build.py --out out/examples
 
-films: $(READY) ## a film of every example, and a sheet of its key postures, into out/films
+films: $(READY) ## film every example and draw its key postures, into out/films
 	@$(RUN) examples/films.py --out out/films
 
-pictures: $(READY) ## draw the pictures of the examples' folders and of the tutorial anew
+pictures: $(READY) readme-picture ## draw all pictures of the documents and of the examples' folders again
 	@$(RUN) examples/build.py --out out/examples --keep-pictures
 	@$(RUN) docs/language/pictures.py
 	@$(RUN) docs/film_pictures.py
 	@$(RUN) docs/repl_pictures.py
 
+readme-picture: $(READY) ## draw the moving picture of README.md again
+	@$(RUN) docs/readme_picture.py
+
 motion-table: $(READY) ## compare tracks with flattening on every example, into docs/motion.md
 	@$(RUN) docs/motion_table.py
 
-wheel-test: $(READY) node ## the fast tests against the built wheel, outside the checkout
+wheel-test: $(READY) node ## run the fast tests against the built wheel, outside the checkout
 	@bash tests/project/wheel.sh $(RUN)
 
-node: ## packages of the tests that need Node, where it is installed
+node: ## install the packages of the tests that need Node, if it is there
 	@if command -v npm >/dev/null; then $(MAKE) --no-print-directory $(PACKAGES) || \
 		echo "The Node packages could not be installed: their tests are skipped" >&2; fi
 

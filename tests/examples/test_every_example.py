@@ -106,7 +106,11 @@ def test_the_khronos_validator_has_nothing_to_say(source: Path, built: Path, nod
     assert report["issues"]["messages"] == []
 
 
-PAGES = [EXAMPLES.parent / "README.md", *sorted({s.parent / "README.md" for s in SOURCES})]
+PAGES = [
+    EXAMPLES.parent / "README.md",
+    EXAMPLES.parent / "docs" / "README.md",
+    *sorted({s.parent / "README.md" for s in SOURCES}),
+]
 
 
 @pytest.mark.slow

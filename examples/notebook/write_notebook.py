@@ -1,4 +1,4 @@
-"""Writes azee.ipynb from the cells below; its outputs are not kept, running it makes them."""
+"""Writes azee.ipynb from the cells below, without outputs; running the notebook makes them."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ NOTEBOOK = Path(__file__).with_name("azee.ipynb")
 CELLS = (
     """# AZee in a notebook
 
-Scores, moving bodies and reports show themselves. Nothing is fetched from anywhere: the player of
-the body is part of the output. `pip install azee jupyterlab`, then run the cells.""",
+Scores, moving bodies and reports show themselves. They need no network: the player of the body is
+part of the output. Install with `pip install azee jupyterlab`, then run the cells.""",
     """    import azee
 
     made = azee.compile(":info-about(:cinéma, :bien)\\n")
     made.score""",
-    """The score names who does what, and when. The body that plays it can be turned with the mouse;
-below it is how well each constraint is met.""",
+    """The score says what each part of the body does, and when. The next cell shows the body that signs
+it; turn the body with the mouse. Below the body is a table of the constraints and their residuals.""",
     """    made""",
-    """A rule of one's own: the thumb at the ear, the hand pointing forwards.""",
+    """This cell adds a rule: the thumb is at the ear, and the hand points forwards.""",
     '''    phone = """
     def phone
         'meaning "telephone"
@@ -33,12 +33,12 @@ below it is how well each constraint is met.""",
     :info-about(:phone, :bien)
     """
     azee.compile(phone)''',
-    """Everything is data: the residuals, the joint coordinates over time, the body.""",
+    """The residuals, the joint coordinates over time and the body are Python objects.""",
     """    worst = max(made.report.constraints, key=lambda c: (c.residual or 0) / c.tolerance)
     print(worst.subject, worst.target, worst.residual, worst.unit)
     made.clip.coordinates.shape""",
     """    made.rig""",
-    """What is wrong is said as `azee check` says it.""",
+    """Mistakes are reported as `azee check` reports them.""",
     """    try:
         azee.compile(":info-about(:cinema, :well)\\n")
     except azee.AZeeError as error:

@@ -32,20 +32,20 @@ TOKENS = {
     "PARAMETER": "| `^name` |",
     "HOLE": "| `?name` |",
     "SIDE": "| `s` `w` `L` `R` |",
-    "_OPEN": "a parenthesis opens an **operand**",
+    "_OPEN": "A parenthesis after a space begins an **operand**",
     "_CALL": "A parenthesis *directly behind* a name",
-    "CLOSE": "One that is never\nclosed",
-    "_COMMA": "The operands stand\nbetween commas",
+    "CLOSE": "A parenthesis that is never closed",
+    "_COMMA": "Commas separate the operands",
     "_EQUALS": "`'name = value`",
     "_NEWLINE": "lines end\nwith LF, CRLF or CR",
-    "_INDENT": "extends the innermost",
-    "_DEDENT": "repeats the indentation\nof an enclosing line",
+    "_INDENT": "or extend the innermost",
+    "_DEDENT": "It must repeat the indentation of an enclosing line",
     "USE": "`use 'name`",
     "DEF": "`def name`",
     "NAME": "the name is the rest of the line",
-    "BROKEN": "After a mistake the line it stands in is passed over",
+    "BROKEN": "After a mistake, the parser skips the line",
 }
-"""Where syntax.md tells of each token of the grammar."""
+"""The words with which syntax.md describes each token of the grammar."""
 
 EXAMPLES = list(blocks(page("values.md")))
 

@@ -1,4 +1,4 @@
-"""The manual's page of values, written from the kinds and the declarations of operators.
+"""The manual's page of values, generated from the kinds and the declarations of operators.
 
 `python -m azee.lang.kinds_manual` prints docs/language/values.md; a test compares the two.
 """
@@ -17,7 +17,7 @@ from azee.lang.values import Kind
 
 @dataclass(frozen=True, slots=True)
 class KindEntry:
-    """What the manual says of a kind: in words, and an expression that has a value of it."""
+    """What the manual says of a kind, and an expression whose value is of this kind."""
 
     meaning: str
     example: str
@@ -26,40 +26,41 @@ class KindEntry:
 
 ENTRIES: Mapping[Kind, KindEntry] = {
     Kind.NUMBER: KindEntry(
-        "A number without a unit: seconds, metres or degrees, by where it stands. Times are kept "
-        "exactly, `.1` as one tenth; all else with the fifteen digits of double precision.",
+        "A number without a unit. It means seconds, metres or degrees, depending on the operand. "
+        "Times are exact: `.1` is one tenth. Other numbers have double precision, fifteen digits.",
         "-.4",
         published=True,
     ),
     Kind.SYMBOL: KindEntry(
-        "A word that stands for itself: the name of an argument or of a block, a keyword, a "
+        "A word that stands for itself: the name of an argument or of a block, a keyword, or a "
         "moment such as `'SIG:end`.",
         "'SIG:start:-.25",
         published=True,
     ),
     Kind.TEXT: KindEntry(
-        "Words for people, as in the `'meaning` of a rule. Nothing is done with them.",
+        "Words for people, as in the `'meaning` of a rule. Operators do not use them.",
         '"tree, as a plant"',
         published=False,
     ),
     Kind.SIDE: KindEntry(
-        "Strong, weak, left or right. Strong and weak stay open until it is known which hand of "
-        "the signer is the dominant one.",
+        "Strong, weak, left or right. Strong and weak become right or left when the signer's "
+        "dominant hand is known.",
         "opposite s",
         published=True,
     ),
     Kind.BOOLEAN: KindEntry(
-        "Yes or no, the answer to a comparison. There is no word for either: `eq 1 1` is yes.",
+        "Yes or no, the result of a comparison. AZee has no words for these values: `eq 1 1` is "
+        "yes.",
         "lt 1 2",
         published=False,
     ),
     Kind.BONE: KindEntry(
-        "A bone of the body, for which it has a side and, on fingers, a phalanx.",
+        "A bone of the body, with its side and, on fingers, its phalanx.",
         "!index(s, 2)",
         published=True,
     ),
     Kind.SITE: KindEntry(
-        "A place on the skin. Wherever a point is asked for, it is the point where that place is.",
+        "A place on the skin. Where a point is expected, a site stands for its point.",
         "@I_TIP(s)",
         published=True,
     ),
@@ -70,34 +71,35 @@ ENTRIES: Mapping[Kind, KindEntry] = {
         published=True,
     ),
     Kind.POINT: KindEntry(
-        "A place in space. It may depend on the posture, as a place on the body does, or move.",
+        "A place in space. It may depend on the posture, as a place on the body does, or it may "
+        "move.",
         "midpoint @CK(L) @CK(R)",
         published=True,
     ),
     Kind.PATH: KindEntry(
-        "The shape of a way, without its ends: they are where a site comes from and goes to.",
+        "The shape of a movement, without its ends. The ends are the places before and after it.",
         "arc vec(0, .05, 0)",
         published=True,
     ),
     Kind.LIST: KindEntry(
-        "Values in order, which need not be of one kind.",
+        "Values in order. They may be of different kinds.",
         "list :arbre :bien",
         published=False,
     ),
     Kind.CONSTRAINTS: KindEntry(
-        "What must hold of the body at a time: one constraint, or a set of them. Posture rules "
+        "What must hold for the body at a time: one constraint or a set of them. Posture rules "
         "give constraints.",
         "cstr (place @I_TIP(s) @CH) :#index-hand",
         published=True,
     ),
     Kind.SCORE: KindEntry(
-        "Who does what, and when: constraints in named blocks on a time line. Signs, and what "
-        "production rules make of them, are scores; so is every utterance.",
+        "What the body does, and when: constraints in named blocks on a time line. Signs, the "
+        "results of production rules and all utterances are scores.",
         "key .5 (look ^fwd)",
         published=True,
     ),
     Kind.OPERATOR: KindEntry(
-        "A rule that is handed over without being applied, perhaps with some of its arguments.",
+        "A rule as a value, not applied. It may include some of its arguments.",
         ".nb-5",
         published=True,
     ),
@@ -105,16 +107,17 @@ ENTRIES: Mapping[Kind, KindEntry] = {
 
 _HEAD = """# Kinds of value
 
-What an expression can be, from the declarations that also check operands. **(P)** marks kinds that
-appear in publications, **(O)** those that are this project's own; the English names are ours
-throughout. How values come about is told in [evaluation.md](evaluation.md), each operator in
-[operators.md](operators.md).
+This page lists the kinds of value. It is generated from the declarations that also check
+operands. **(P)** marks kinds that appear in publications, **(O)** kinds that are this project's
+own. All English names are ours. [evaluation.md](evaluation.md) explains evaluation, and
+[operators.md](operators.md) describes each operator.
 
-Where another kind is wanted, the answer is [`wrong-type`](errors.md#wrong-type), with three
-exceptions: a site stands for a point, a single constraint for a set, a number for an exact time.
+A value of a wrong kind is the mistake [`wrong-type`](errors.md#wrong-type). There are three
+exceptions: a site can stand for a point, a single constraint for a set, and a number for an
+exact time.
 
-Left out below are operators that take values of every kind, and those with a notation of their own:
-{special}.
+The lists below leave out operators that take values of every kind. They also leave out
+operators with a notation of their own: {special}.
 """
 
 
@@ -133,7 +136,7 @@ def _kind(kind: Kind, entry: KindEntry) -> str:
     constants = [c.name for c in CONSTANTS.values() if c.value.kind is kind]
     wanted = [n.name for n in NATIVES.values() if any(kind in o.kinds for o in _operands(n))]
     lines += _fact("Made by", made) + _fact("Constants", constants, "^")
-    lines += _fact("Wanted by", wanted)
+    lines += _fact("Taken by", wanted)
     return "\n".join(lines).rstrip("\n") + "\n"
 
 

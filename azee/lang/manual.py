@@ -1,4 +1,4 @@
-"""The manual's page of operators, written from their declarations.
+"""The manual's page of operators, generated from their declarations.
 
 `python -m azee.lang.manual` prints docs/language/operators.md; a test compares the two.
 """
@@ -16,15 +16,16 @@ from azee.lang.values import Kind
 
 _HEAD = """# Operators and constants
 
-Every operator of the language with its operands, from the declarations that also check them. Forms
-marked **(P)** are printed in theses, papers or posters, without their options; of **(P, name)**
-only the name is. All others, **(O)**, are this project's own design. How operands are written is
-told in [syntax.md](syntax.md), the rules of `sync` in [sync.md](sync.md), what values are and where
-names are found in [evaluation.md](evaluation.md).
+This page describes every operator of the language and its operands. It is generated from the
+declarations that also check operands. Forms marked **(P)** are printed in theses, papers or
+posters, without their options. If the mark is **(P, name)**, only the name is printed there.
+Forms marked **(O)** are this project's own design. [syntax.md](syntax.md) explains how operands
+are written, [sync.md](sync.md) the rules of `sync`, and [evaluation.md](evaluation.md) values
+and names.
 
-In a pattern, `…` repeats what stands before it and brackets enclose what may be left out. A point
-may be a site, and constraints may be a single one. An option is written `'word value` behind the
-operands.
+In a pattern, `…` repeats the part before it, and brackets enclose optional parts. A site may
+stand for a point, and a single constraint for constraints. An option is written `'word value`
+after the operands.
 """
 
 
@@ -80,7 +81,9 @@ def _dependent(native: Native) -> str:
 
 def _constants() -> str:
     rows = [f"| `^{c.name}` | {c.meaning} | {_mark(c.published)} |" for c in CONSTANTS.values()]
-    head = "## Constants\n\nA parameter of the same name hides them.\n\n| | | |\n|---|---|---|\n"
+    head = (
+        "## Constants\n\nA parameter of the same name hides a constant.\n\n| | | |\n|---|---|---|\n"
+    )
     return head + "\n".join(rows) + "\n"
 
 

@@ -1,4 +1,4 @@
-"""The manual's page of names, written from the tables of the vocabulary.
+"""The manual's page of names, generated from the tables of the vocabulary.
 
 `python -m azee_grammar.names_manual` prints docs/language/names.md; a test compares the two.
 """
@@ -13,19 +13,20 @@ from azee_grammar.vocabulary import BONES, MORPHS, SITES, WITHOUT_MORPH
 
 _HEAD = """# All names of the body
 
-Every bone, place on the body and morph, as a text writes it. In the tables the side is written `L`
-and `R`; a text may also say `s` and `w`, the strong and the weak hand, and a morph's side may stand
-behind its name: `'index_bend s .5`. The names are published (P); the descriptions are ours (O).
-[vocabulary.md](vocabulary.md) tells how to read the names of sites, and what was corrected.
+This page lists every bone, place on the body and morph, as a text writes it. The tables write
+sides as `L` and `R`. A text may also write `s` and `w`, the strong and the weak hand, and may
+put the side of a morph after its name: `'index_bend s .5`. The names are published (P); the
+descriptions are ours (O). [vocabulary.md](vocabulary.md) explains the names of sites and lists
+corrections.
 """
 
 _KINDS = {
-    "facial": ("Movements of the face", "Action units, weight 1 at their fullest."),
+    "facial": ("Movements of the face", "Action units; weight 1 is the full movement."),
     "facial-alternative": (
         "Further movements of the face",
-        "Others for the same or for parts of it.",
+        "Alternatives for the same movements or for parts of them.",
     ),
-    "skeletal": ("Movements of fingers, hands and trunk", "Weight 0 is neutral."),
+    "skeletal": ("Movements of fingers, hands and trunk", "Weight 0 is the neutral posture."),
     "legacy-facial": ("Older names of movements of the face", "Published expressions use them."),
     "legacy-skeletal": (
         "Older names of movements of the hand",
@@ -45,7 +46,7 @@ def names() -> str:
     )
     parts = [
         _HEAD,
-        f"## Bones\n\n{len(BONES)} bones.\n\n{_table(('bone', 'hangs on'), bones)}",
+        f"## Bones\n\n{len(BONES)} bones.\n\n{_table(('bone', 'parent'), bones)}",
         f"## Sites\n\n{len(SITES)} places on the body.\n\n"
         + _table(("site", "where", "carried by"), sites),
         *_morphs(),
@@ -59,13 +60,14 @@ def _morphs() -> Iterator[str]:
     for kind, (title, remark) in _KINDS.items():
         found = {name: entry for name, entry in MORPHS.items() if entry.kind == kind}
         rows = ((f"`'{name}`", entry.description) for name, entry in found.items())
-        yield f"## {title}\n\n{len(found)} morphs. {remark}\n\n{_table(('morph', 'what'), rows)}"
+        table = _table(("morph", "movement"), rows)
+        yield f"## {title}\n\n{len(found)} morphs. {remark}\n\n{table}"
 
 
 def _written(sigil: str, name: str | None) -> str:
     """Return a full name as a text writes it: `index_R_2` is `!index(R, 2)`."""
     if name is None:
-        return "nothing: the root"
+        return "none: the root"
     if (match := _FULL.fullmatch(name)) is None:
         return f"`{sigil}{name}`"
     operands = ", ".join(part for part in (match["side"], match["phalanx"]) if part)

@@ -1,1 +1,1 @@
-"""How long things take, how surely they are solved, and how both compare with other methods."""
+"""Benchmarks: how long things take, how often problems are solved, how other methods do."""

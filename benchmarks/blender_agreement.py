@@ -1,9 +1,9 @@
-"""Holds the bodies' GLB files against Blender: joints and skinned vertices at ten random postures.
+"""Compares the bodies' GLB files with Blender: joints and skinned vertices at ten random postures.
 
-    python -m venv BPY && BPY/bin/pip install bpy      # Python as bpy asks for; once
+    python -m venv BPY && BPY/bin/pip install bpy      # with the Python that bpy requires; once
     python benchmarks/blender_agreement.py BPY/bin/python [BODY …]
 
-Exits with 1 where a joint is more than 1 mm or a vertex more than 2 mm off.
+Exits with 1 if a joint is more than 1 mm or a vertex more than 2 mm off.
 """
 
 from __future__ import annotations
@@ -48,14 +48,14 @@ print("SEEN" + json.dumps(seen))
 
 
 def random_postures(rig: Rig) -> np.ndarray:
-    """Postures (P, V) inside the limits, on the way from idle to anywhere."""
+    """Return random postures (P, V) within the limits, between idle and anywhere."""
     c = rig.coordinates
     anywhere = np.random.default_rng(SEED).uniform(c.lower, c.upper, (POSTURES, len(c)))
     return np.asarray(c.idle + REACH * (anywhere - c.idle))
 
 
 def largest_gaps(rig: Rig, python: str) -> tuple[float, float]:
-    """Largest gap of any joint and of any vertex, metres."""
+    """Return the largest gap of any joint and of any vertex, metres."""
     q = random_postures(rig)
     clip = Clip(np.arange(POSTURES) / 10, q, (), np.zeros((POSTURES, 0)))
     with tempfile.TemporaryDirectory() as folder:

@@ -1,11 +1,11 @@
-"""Whether a small change of a target gives a small change of the posture.
+"""Checks whether a small change of a target gives a small change of the posture.
 
-`python -m benchmarks.continuity [--sweeps N] [-o FILE.json]`. Targets run through the signing space
-in steps of a millimetre, along straight lines drawn with fixed seeds: a fingertip, a palm, a palm
-that also faces forwards. Every posture starts from the one before, is drawn to it and thirty times
-less to idle, as where something live is followed. What is measured is the largest change of any
-coordinate from one step to the next: up to 2° inside 98 % of reach, 4° beyond. Steps that change
-more are printed, with what changed.
+`python -m benchmarks.continuity [--sweeps N] [-o FILE.json]`. Targets move through the signing
+space in steps of a millimetre, along straight lines drawn with fixed seeds. The targets are for a
+fingertip, for a palm, and for a palm that also faces forwards. Every posture starts from the one
+before and is drawn to it thirty times more than to idle, as when a live target is followed. The
+benchmark measures the largest change of any coordinate from one step to the next. The bound is 2°
+within 98 % of reach and 4° beyond. It prints steps that change more, and what changed.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ STEP_M = 1e-3
 LENGTH_M = 0.25
 WITHIN = 0.98
 ALLOWED_DEG = {True: 2.0, False: 4.0}
-"""Inside 98 % of reach, and beyond."""
+"""Largest allowed changes of a coordinate in a step, within 98 % of reach and beyond."""
 INERTIA = 30.0
-"""How much more than to idle a posture is drawn to the one before."""
+"""How much more a posture is drawn to the one before than to idle."""
 SEED = 7
 SPACE_M = np.array([[-0.45, -0.45, 0.15], [0.2, 0.3, 0.65]])
-"""Where lines begin and end, from the middle of the shoulders."""
+"""Ranges of the ends of lines, from the middle of the shoulders."""
 FORWARD = Vec(0.0, 0.0, 1.0)
 
 
@@ -49,9 +49,9 @@ FORWARD = Vec(0.0, 0.0, 1.0)
 class Jump:
     """A step with a greater change than is allowed.
 
-    reach: distance of the target from the shoulder over that of the stretched arm. missed: what
-    was out of tolerance before or after. at_limits: how many coordinates of trunk and arm are at
-    their limits. moved: parts that the solver took into use before and after.
+    reach: distance of the target from the shoulder, divided by that of the stretched arm. missed:
+        what was out of tolerance before or after. at_limits: how many coordinates of trunk and arm
+        are at their limits. moved: parts that the solver moved before and after.
     """
 
     kind: str
@@ -80,7 +80,7 @@ class Row:
 
 
 def kinds(target: WorldPoint) -> dict[str, list[Constraint]]:
-    """Return what is asked of the strong hand, by name."""
+    """Return the constraints of the strong hand, by name."""
     strong = Side.STRONG
     return {
         "fingertip": [Place(Site("I_TIP", strong), target)],
@@ -93,7 +93,7 @@ def kinds(target: WorldPoint) -> dict[str, list[Constraint]]:
 
 
 def stretched_m(rig: Rig, site: str) -> float:
-    """Distance from the shoulder to a site of the hand with everything straight."""
+    """Return the distance from the shoulder to a site of the hand with all joints straight."""
     frames = rig.chain.frames(np.clip(0.0 * rig.coordinates.idle, *_limits(rig)))
     found = rig.sites[site]
     at = frames.positions[found.node] + frames.rotations[found.node] @ found.position
@@ -119,7 +119,7 @@ def line(rig: Rig, sweep: int) -> Iterator[Array]:
 
 
 def swept(rig: Rig, kind: str, sweep: int) -> Iterator[tuple[float, SolveReport]]:
-    """Yield how far out a target is, as a part of reach, and its solution."""
+    """Yield how far out a target is, as a share of reach, and its solution."""
     idle = rig.coordinates.idle
     frames = rig.chain.frames(idle)
     shoulder = frames.positions[rig.bones["arm_R"].origin_node]
@@ -180,13 +180,13 @@ def measure(rig: Rig, kind: str, sweeps: int) -> tuple[Row, list[Jump]]:
 
 
 def missed(*reports: SolveReport) -> tuple[str, ...]:
-    """What any of some reports has out of tolerance."""
+    """Return what is out of tolerance in any of some reports."""
     kinds = [c.kind for report in reports for c in report.constraints if not c.met]
     return tuple(dict.fromkeys(kinds))
 
 
 def at_limits(rig: Rig, report: SolveReport) -> int:
-    """How many coordinates that constraints may move are at their limits, but the fingers'."""
+    """Count the coordinates, without fingers, that constraints may move and that are at a limit."""
     limits, q = rig.coordinates, report.coordinates
     at = np.minimum(q - limits.lower, limits.upper - q) < 1e-9
     hand = anatomy(rig.chain, limits).of(Part.HAND)
@@ -194,7 +194,7 @@ def at_limits(rig: Rig, report: SolveReport) -> int:
 
 
 def explained(jump: Jump) -> str:
-    """Why a posture changes so much, as far as it can be told from outside."""
+    """Say why a posture changes so much, as far as it can be seen from outside."""
     before, after = jump.moved
     taken = [part for part in after if part not in before]
     left = [part for part in before if part not in after]
@@ -206,7 +206,7 @@ def explained(jump: Jump) -> str:
 
 
 def main(given: Sequence[str] | None = None) -> int:
-    """Print a row per kind and every jump; 1 if there is one."""
+    """Print a row per kind and every jump. Returns: 1 if there is a jump."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--sweeps", type=int, default=12)
     parser.add_argument("-o", "--output", type=Path, help="rows and jumps, as JSON")

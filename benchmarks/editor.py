@@ -1,8 +1,8 @@
-"""How long an editor waits for messages after a key is pressed; `make bench`, or this file alone.
+"""Measures how long an editor waits for messages after a key stroke; part of `make bench`.
 
 A text of 1,000 lines, half of them rules, is open in a real server in a process of its own. The
-clock runs from the change leaving the editor to the messages on it arriving, the pause that the
-server makes for further keys included. The goal is 100 ms.
+time runs from the change in the editor to the arrival of its messages, and includes the pause in
+which the server waits for further keys. The goal is 100 ms.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ EDITS = {
 
 
 async def waits() -> dict[str, list[float]]:
-    """Return the seconds from change to messages, by the kind of change; each is undone again."""
+    """Return the seconds from change to messages, by the kind of change; undo each change."""
     sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "lsp"))
     editor: Any = import_module("editor")
     found: dict[str, list[float]] = {name: [] for name in EDITS}

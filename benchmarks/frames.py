@@ -1,9 +1,9 @@
-"""Whether every constraint holds in every frame: all examples and rules, at 30 and 60 frames/s.
+"""Checks every constraint in every frame: all examples and rules, at 30 and 60 frames/s.
 
-`python benchmarks/run.py frames [-o FILE.json] [NAME …]`. Each is compiled and its report read:
-constraints that are missed in some frame of their block, with the reason; coordinates beyond their
-limits; what the posed skin lets into the body in any frame where no touch is meant; how fast
-joints turn. Only what is worth a line is printed, then the sums.
+`python benchmarks/run.py frames [-o FILE.json] [NAME …]`. The benchmark compiles each text and
+reads its report: constraints that are missed in some frame of their block, with the reason;
+coordinates beyond their limits; penetration of the posed skin in any frame where no contact is
+meant; the speed of joints. It prints only conspicuous rows and the sums.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from benchmarks.penetration import TOLERATED_M, scores
 
 RATES = (30.0, 60.0)
 SHOWN_DEG_S = 1500.0
-"""Faster turns are told."""
+"""Faster turns are printed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ def rows(names: list[str]) -> Iterator[Row]:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Print what is worth a line, and the sums."""
+    """Print the conspicuous rows and the sums."""
     parser = argparse.ArgumentParser(prog="frames", description=__doc__)
     parser.add_argument(
         "names", nargs="*", metavar="NAME", help="examples or rules; by default all"

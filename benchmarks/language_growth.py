@@ -1,8 +1,8 @@
-"""How reading and evaluating grow, and what hostile texts cost: `make bench`, or this file alone.
+"""Measures how reading and evaluating grow, and what hostile texts cost; part of `make bench`.
 
-Each row is a process of its own: seconds of the processor for parsing and for checking (names,
-evaluation, timing), the most memory the process ever held, and the diagnostic it ended in. Linux
-and macOS.
+Each row is a process of its own: processor seconds for parsing and for checking (names, evaluation,
+timing), the largest memory of the process, and the diagnostic that ended it. Runs on Linux and
+macOS.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def texts() -> Iterator[tuple[str, str]]:
 
 
 def measure(text: str) -> dict[str, object]:
-    """Return what one text costs in this process."""
+    """Return the cost of one text in this process."""
     from resource import RUSAGE_SELF, getrusage
 
     source = Source("text.azee", text)

@@ -1,8 +1,8 @@
-"""What tracks save, and how they grow: `python benchmarks/motion_keys.py`.
+"""Measures how many postures tracks save, and how they grow: `python benchmarks/motion_keys.py`.
 
-For real signs of two hands in sequence, 10 to 1,000 by default: the postures that tracks solve,
-those that keying every frame at the same tolerance takes (one a frame that something is asked
-in), and the time of either part of the work per sign.
+For sequences of real signs of two hands, 10 to 1,000 by default, it counts the postures that tracks
+solve. It compares them with a key in every frame at the same tolerance, that is, one posture for
+each frame with a task. It also prints the time of either part of the work per sign.
 """
 
 from __future__ import annotations

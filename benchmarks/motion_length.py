@@ -1,7 +1,8 @@
-"""How the time of motion grows with the length of a text: `python benchmarks/motion_length.py`.
+"""Measures how the time of motion grows with the length of a text.
 
-Plays 1, 10, 100 signs in sequence, each with a path, a palm that holds its direction, a head shake
-and a facial block, and prints seconds per sign, the solver's share apart.
+`python benchmarks/motion_length.py` plays 1, 10 and 100 signs in sequence, each with a path, a palm
+that holds its direction, a head shake and a facial block. It prints seconds per sign, with the
+solver's share.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ def block(name: str, start: str, length: str, *constraints: Constraint) -> Block
 
 
 def sign(n: int) -> Group:
-    """Return a sign of one second; each is placed a little elsewhere."""
+    """Return a sign of one second; each sign has slightly different places."""
     across = -0.12 + 0.02 * (n % 7)
 
     def place(height: float) -> Place:

@@ -1,9 +1,10 @@
-"""How deep the skin enters itself at the key postures of all examples and rules.
+"""Measures how deep the skin enters itself at the key postures of all examples and rules.
 
-`python -m benchmarks.penetration [-o FILE.json] [NAME …]`. Every example under examples/ and the
-example of every rule that ships is compiled; at each key posture the posed mesh is asked where
-arms and digits that it is a key of lie inside trunk, head or each other, but for places where a
-constraint brings two sites together. The worst ten are printed, and whether the report named them.
+`python -m benchmarks.penetration [-o FILE.json] [NAME …]`. It compiles every example below
+examples/ and the example of every rule that ships. At each key posture it measures on the posed
+mesh where the arms and digits of this key are inside trunk, head or each other, except at places
+where a constraint brings two sites together. It prints the worst ten, and whether the report named
+them.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ class Finding:
 
 
 def scores(names: list[str]) -> Iterator[tuple[str, Score]]:
-    """Yield what is to be looked at, by name; all, or those that are named."""
+    """Yield the texts to measure, by name: all, or those that are named."""
     for source in sorted(EXAMPLES.glob("*/*.azee")):
         if not names or source.stem in names:
             yield source.stem, score_of(load(read_source(source)), None, None)
@@ -62,7 +63,7 @@ def scores(names: list[str]) -> Iterator[tuple[str, Score]]:
 
 
 def findings(sign: str, score: Score, rig: Rig) -> Iterator[Finding]:
-    """Look at the key postures of one score."""
+    """Measure the key postures of one score."""
     made = perform(score, rig, life=False)
     seen: set[bytes] = set()
     for posture in made.report.postures:
@@ -85,7 +86,7 @@ def findings(sign: str, score: Score, rig: Rig) -> Iterator[Finding]:
 
 
 def contacts(rig: Rig, posture: KeyPosture) -> list[Contact]:
-    """Where constraints bring two sites together."""
+    """Return the places where constraints bring two sites together."""
     evaluator = Evaluator(rig, Side.RIGHT)
     frames = rig.chain.frames(posture.coordinates)
     return [
@@ -96,7 +97,7 @@ def contacts(rig: Rig, posture: KeyPosture) -> list[Contact]:
 
 
 def main(given: Sequence[str] | None = None) -> int:
-    """Print the worst; 1 if one is deeper than what is tolerated."""
+    """Print the worst. Returns: 1 if one is deeper than is tolerated."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", help="examples and rules; by default all")
     parser.add_argument("-o", "--output", type=Path, help="everything, as JSON")

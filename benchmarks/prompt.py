@@ -1,7 +1,7 @@
-"""How long the prompt takes to answer: reading, evaluating, drawing and solving, once it is warm.
+"""Measures how long the prompt takes to answer: reading, evaluating, drawing and solving.
 
-Each row is the median of a few answers of one session; the last solution is forgotten in between,
-so that every answer solves anew. Completion and reloading are what is felt while typing.
+Each row is the median of a few answers of one warm session. The last solution is forgotten in
+between, so that every answer solves again. A user notices completion and reloading while typing.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from azee.repl.session import Session
 
 RUNS = 7
 SENTENCE_S = 0.3
-"""What an expression of the size of a sentence may take, its solution included."""
+"""The bound for an expression of the size of a sentence, with its solution."""
 SENTENCES = (
     ":info-about(:cinéma, :bien)",
     ":info-about(:personne, :mignon)",
@@ -46,7 +46,7 @@ def main(_: Sequence[str] = ()) -> None:
 
 
 def answer(repl: Repl, text: str) -> None:
-    """Let the prompt answer, as if it had not solved that before."""
+    """Let the prompt answer as if it had not solved the expression before."""
     repl.performer.change(hand="right")
     if not commands.answer(repl, text):
         raise SystemExit(f"{text} is at fault")

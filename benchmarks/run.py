@@ -1,7 +1,7 @@
-"""The benchmarks, all or those that are named: `make bench`.
+"""Runs all benchmarks, or those that are named: `make bench`.
 
-`python benchmarks/run.py [NAME…] [OPTIONS…]`. What follows the names goes to the last of them;
-`python benchmarks/run.py solver --help` lists what that one takes.
+`python benchmarks/run.py [NAME…] [OPTIONS…]`. Options belong to the last name. `python
+benchmarks/run.py solver --help` lists those of `solver`.
 """
 
 from __future__ import annotations

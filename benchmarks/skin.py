@@ -1,9 +1,10 @@
-"""How fast skin is, and how well it keeps its shape: `python benchmarks/skin.py [--format json]`.
+"""Measures how fast skinning is and how well it keeps the shape of the skin.
 
-Speed is that of one frame of the whole body, posed, skinned, with normals. Shape is judged by the
-section of the forearm at ±80° of pronation and by what the sleeve encloses within 6 cm of an
-elbow bent by 145°, for three ways of skinning: plain linear blending, dual quaternions on the same
-weights (Kavan et al. 2008), and what ships: linear blending with helper joints.
+`python benchmarks/skin.py [--format json]`. Speed is that of one frame of the whole body, posed,
+skinned and with normals. Shape is judged by the section of the forearm at ±80° of pronation and by
+the volume of the sleeve within 6 cm of an elbow bent by 145°. It compares three ways of skinning:
+plain linear blending, dual quaternions on the same weights (Kavan et al. 2008), and linear blending
+with helper joints, which ships.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ SLEEVE = np.arange(-0.225, -0.035, 0.015)
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """Shares that are kept of what is there in the mesh's own posture."""
+    """Shares that are left, compared with the mesh's own posture."""
 
     way: str
     wrist_section: float
@@ -46,7 +47,7 @@ class Shape:
 
 
 def linear(rig: Rig, mesh: BodyMesh) -> Skinned:
-    """Return linear blending of some mesh."""
+    """Return linear blending of a mesh."""
     return lambda q: skin(mesh, rig.skeleton, rig.pose(q))
 
 
@@ -98,7 +99,7 @@ def _bent(rig: Rig, coordinate: str, degrees: float) -> Floats:
 
 
 def speed(rig: Rig) -> dict[str, float]:
-    """Milliseconds by the processor's clock that each step of a frame takes: medians."""
+    """Return the medians of the milliseconds of processor time that each step of a frame takes."""
     q, face = rig.coordinates.idle, {"jawOpen": 0.3, "browInnerUp": 0.5, "mouthPucker": 0.4}
     pose = rig.pose(q)
     vertices = rig.skin(pose, face)

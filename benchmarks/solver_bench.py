@@ -1,8 +1,8 @@
-"""The solver against other methods on the same problems: `python benchmarks/run.py solver`.
+"""Compares the solver with other methods on the same problems: `python benchmarks/run.py solver`.
 
 On two bodies, the signer and its bare armature, every method gets the same problems, drawn with
-fixed seeds. Then whole signs and sentences, how time grows, and what a process pays before it can
-solve. Ratios are of medians within one run: on a busy machine only they mean much.
+fixed seeds. Whole signs and sentences follow, then how time grows, and what a process costs before
+it can solve. Ratios compare medians within one run; on a busy machine only ratios mean much.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from benchmarks.ik.signs import EXAMPLES, example_tree, examples, figure_5, sign
 
 TREE = EXAMPLES / "tree" / "tree.azee"
 WIDTH = 130
-"""Of a table, where nobody looks at a terminal."""
+"""Width of a table where there is no terminal."""
 PACKAGES = ("azee", "nlopt", "numba", "numpy", "scipy")
 
 
@@ -120,7 +120,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _prepared(found: Findings, prepare: bool) -> Sequence[Environment]:
-    """Environments that are there, made first if wanted; notes why others are not."""
+    """Return the environments that exist, after making them if wanted; note why others do not."""
     there = []
     for environment in (BLENDER, PINOCCHIO):
         try:
@@ -200,7 +200,7 @@ def scale(found: Findings, console: Console, repeats: int) -> None:
 
 
 def processes(found: Findings, console: Console) -> None:
-    """Measure what a process pays: compiling once on a machine, all else each time."""
+    """Measure what a process costs: compiling once on a machine, everything else each time."""
     code = (
         "import sys, time, nlopt, numpy; sys.modules['scipy'] = None; t = time.perf_counter(); "
         "import azee_solver.program; print(time.perf_counter() - t)"
@@ -221,7 +221,7 @@ def processes(found: Findings, console: Console) -> None:
             found.process[what] = float(done.stdout)
         out = Path(folder) / "tree.glb"
         command = [sys.executable, "-m", "azee", "compile", str(TREE), "-o", str(out), "--quiet"]
-        # Warm means that modules are compiled, as they are where azee is installed.
+        # Warm means that modules are compiled, as where azee is installed and has run before.
         warm = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
         warm["PYTHONPYCACHEPREFIX"] = str(Path(folder) / "bytecode")
         whole = []

@@ -1,7 +1,7 @@
-"""How long things take that a user waits for, with the goals beside: `benchmarks/run.py waits`.
+"""Measures what a user waits for, beside the goals: `benchmarks/run.py waits`.
 
 Each row is the median of a few runs after one that warms caches, by the clock and in processor
-time; whole processes are started anew each time. On a busy machine only the latter means much.
+time. Whole processes are started again each time. On a busy machine only processor time means much.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ RUNS = 7
 
 @dataclass(frozen=True)
 class Row:
-    """Medians, by the clock and of the processor, and what the first should be; seconds."""
+    """Medians by the clock and of the processor, and the goal of the first; seconds."""
 
     what: str
     clock_s: float
@@ -52,7 +52,7 @@ def _time(seconds: float | None) -> str:
 
 
 def timed(what: str, action: Callable[[], object], goal_s: float | None = None) -> Row:
-    """Return the row of an action; processes that it starts and waits for count."""
+    """Return the row of an action; the time of processes that it starts and waits for counts."""
     runs = []
     for _ in range(RUNS + 1):
         spent, began = _processor_s(), time.perf_counter()
@@ -84,7 +84,7 @@ def process(*arguments: str | Path) -> Callable[[], None]:
 
 
 def score(source: Path) -> Score:
-    """Return the score of an example, read and evaluated anew."""
+    """Return the score of an example, read and evaluated again."""
     return score_of(load(read_source(source)), None, None)
 
 
@@ -117,7 +117,7 @@ def solving(found: Score, rig: Rig) -> float:
 
 
 def explaining(found: Score, rig: Rig) -> float:
-    """Return the time that the reasons of a score's misses take."""
+    """Return the time for finding the reasons of a score's missed constraints."""
     return perform(found, rig).report.explain_s
 
 

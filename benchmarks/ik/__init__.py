@@ -1,1 +1,1 @@
-"""Inverse kinematics compared: bodies, problems and methods of `benchmarks/solver_bench.py`."""
+"""Comparison of inverse kinematics: bodies, problems, methods of `benchmarks/solver_bench.py`."""

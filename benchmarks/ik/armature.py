@@ -1,7 +1,7 @@
 """The signer's bones alone, in a form that any solver of inverse kinematics can take.
 
-Trunk, arms and fingers with the signer's joints and limits, but one node per bone, one angle per
-axis, no couplings, no head, no helper joints, no skin and no capsules.
+The armature has trunk, arms and fingers with the signer's joints and limits, one node per bone and
+one angle per axis. It has no couplings, head, helper joints, skin or capsules.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LEFT_OUT = ("neck", "head", "eye", "elbow", "carpus", "back")
 
 
 def bare_armature(body: Rig) -> Rig:
-    """Return the armature of a body, with its sites where they are at the zero pose."""
+    """Return the armature of a body, with its sites at their places in the zero pose."""
     chain = body.chain
     kept = {
         b: TRUNK.get(name, name)
@@ -88,15 +88,15 @@ def bare_armature(body: Rig) -> Rig:
             turn @ (world - at_zero.positions[carrier]),
             turn @ at_zero.rotations[site.node] @ site.normal,
         )
-    # What only skin needs is not there.
+    # Nodes that only the skin needs are left out.
     everything: dict[str, Any] = {f.name: given.get(f.name) for f in fields(Rig)}
     return Rig(**everything)
 
 
 def pinned(body: Rig) -> Rig:
-    """Return a body whose sites are fixed in their nodes' frames, as at the zero pose.
+    """Return a body whose sites are fixed in the frame of one node, as at the zero pose.
 
-    Those near joints ride on several nodes, which other methods' residuals do not know.
+    Sites near joints depend on several nodes, which the residuals of other methods do not support.
     """
     at_zero = body.chain.frames(np.zeros(len(body.coordinates)))
     sites = {}
@@ -108,7 +108,7 @@ def pinned(body: Rig) -> Rig:
 
 
 def part_left_out(node: str) -> bool:
-    """Whether sites of a node are left out with it."""
+    """Whether sites of a node are left out with the node."""
     return node.startswith(("neck", "head", "eye"))
 
 
@@ -119,7 +119,7 @@ def _carrier(body: Rig, node: int, kept: dict[int, str]) -> int:
 
 
 def _no_capsules() -> Capsules:
-    """Return one capsule that nothing is to keep away from."""
+    """Return one capsule that no other must avoid."""
     pairs = np.empty((0, 2), dtype=np.int64)
     ends = np.zeros((1, 3))
     return Capsules(("trunk",), np.zeros(1, dtype=np.int64), ends, ends, np.ones(1), pairs, pairs)

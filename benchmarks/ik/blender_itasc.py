@@ -1,10 +1,10 @@
-"""Blender's iTaSC under the paper's two-level iteration; runs in an environment that has `bpy`.
+"""Blender's iTaSC in the paper's two-level iteration; runs in an environment that has `bpy`.
 
-`python blender_itasc.py problems.json answers.json`: see `elsewhere` for the exchange. Each node of
-the chain is a bone whose rest matrix is its frame at the zero pose, so that the Euler angles of
-its pose, in the right order, are the coordinates. Sites are leaf bones without freedom. As in
-Nunnari, Filhol and Heloir (2018, listing 1), one IK constraint at a time is switched on, the
-dependency graph updated, and what came of it put into the bones' own angles.
+`python blender_itasc.py problems.json answers.json`; `elsewhere` describes the exchange. Each node
+of the chain is a bone whose rest matrix is its frame at the zero pose. So the Euler angles of its
+pose, in the right order, are the coordinates. Sites are leaf bones without freedom. As in Nunnari,
+Filhol and Heloir (2018, listing 1), one IK constraint at a time is switched on, the dependency
+graph updated, and the result put into the bones' own angles.
 """
 
 from __future__ import annotations
@@ -120,14 +120,14 @@ class Armature:
         return q
 
     def value(self, kind: str, node: int, local: list[float]) -> Any:
-        """Point or direction of a node in the world, or a constant."""
+        """Return the point or direction of a node in the world, or a constant."""
         if node < 0:
             return Vector(local)
         matrix = self.bones[node].matrix
         return matrix @ Vector(local) if kind == "point" else matrix.to_3x3() @ Vector(local)
 
     def offset(self, constraint: dict[str, Any]) -> float:
-        """How far a constraint is from its goal, metres or radians."""
+        """Return the distance of a constraint from its goal, metres or radians."""
         kind = constraint["kind"]
         own = self.value(kind, constraint["node"], constraint["local"])
         goal = self.value(kind, constraint["other"], constraint["other_local"])
@@ -137,7 +137,7 @@ class Armature:
         return abs(between - math.pi / 2) if kind == "across" else between
 
     def apply(self, constraint: dict[str, Any], free: set[int]) -> None:
-        """Let the inner solver meet one constraint, and keep the pose it finds."""
+        """Let the inner solver meet one constraint, and keep its pose."""
         kind, node = constraint["kind"], constraint["node"]
         own = self.value(kind, node, constraint["local"])
         goal = self.value(kind, constraint["other"], constraint["other_local"])
@@ -207,7 +207,7 @@ class Armature:
         return self.constraints[key]
 
     def solve(self, problem: dict[str, Any]) -> list[int]:
-        """Listing 1, for each IK problem in turn; returns the rounds it took each."""
+        """Run listing 1 for each IK problem in turn. Returns: the number of rounds of each."""
         rounds = []
         for step in problem["steps"]:
             free = set(step["free"])
@@ -261,7 +261,7 @@ def main() -> None:
                 "q": armature.coordinates(),
             }
         )
-    # The first warmed up.
+    # The first problem warmed up.
     done = {"version": f"Blender {bpy.app.version_string}", "answers": answers[1:]}
     Path(sys.argv[2]).write_text(json.dumps(done), encoding="utf-8")
 

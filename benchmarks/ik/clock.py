@@ -1,4 +1,4 @@
-"""Time that others on the machine have little part in."""
+"""Measures time with little influence of other processes on the machine."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ import time
 
 
 class Clock:
-    """Starts when it is made. Reads whichever is less, time by the clock or of the processor.
+    """Starts when it is made. It reads the lesser of clock time and processor time.
 
-    On a busy machine a long run waits for others again and again and a short one does not: by the
-    clock, ratios would lie. Threads that only wait for work add up on the processor's side.
+    On a busy machine, a long run waits for other processes again and again, and a short one does
+    not. So ratios of clock times would be wrong. Processor time includes threads that only wait for
+    work.
     """
 
     def __init__(self) -> None:

@@ -1,4 +1,4 @@
-"""All methods on all problems: every answer measured anew, and what comes of it in figures."""
+"""Runs all methods on all problems, measures every answer again and computes the figures."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from benchmarks.ik.methods import Answer, Method
 from benchmarks.ik.problems import LOOSE, TIGHT, Maker, Problem
 
 TURN = 10
-"""So many problems a method solves before the next one has its turn."""
+"""How many problems a method solves before the next method has its turn."""
 WORST = 3
 """How many of the worst misses are kept."""
 
@@ -36,17 +36,18 @@ class Miss:
 
     @property
     def size(self) -> float:
-        """In our tolerances."""
+        """The residual in units of our tolerances."""
         return max(self.length_m / TIGHT[0], self.angle_rad / TIGHT[1])
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """What a method did on a class of problems.
+    """The answers of a method to a class of problems.
 
-    residuals: of every answer. overlaps_m: of its deepest pair of capsules beyond meant contacts,
-    empty on a body without. excess_rad: how far the worst coordinate leaves its limits; 0 for
-    none. rounds: of the two-level method, per IK problem, all problems together.
+    residuals: of every answer. overlaps_m: the overlap of its deepest pair of capsules beyond
+        intended contacts; empty on a body without capsules. excess_rad: how far the worst
+        coordinate leaves its limits; 0 for none. rounds: of the two-level method, per IK problem,
+        all problems together.
     """
 
     body: str
@@ -68,7 +69,7 @@ class Row:
         return float(np.percentile(self.seconds, 95))
 
     def met(self, tolerance: tuple[float, float]) -> int:
-        """How many problems were solved to a tolerance."""
+        """Return how many problems were solved to a tolerance."""
         return sum(miss.within(tolerance) for miss in self.residuals)
 
     def as_json(self) -> dict[str, object]:
@@ -101,7 +102,7 @@ class Row:
 def row(
     body: str, rig: Rig, method: str, problems: Sequence[Problem], answers: Sequence[Answer]
 ) -> Row:
-    """Measure answers by forward kinematics that is none of the methods' own."""
+    """Measure answers by forward kinematics that belongs to none of the methods."""
     evaluator = Evaluator(rig, Side.RIGHT)
     limits = rig.coordinates
     excess = max(float(np.max(np.maximum(limits.lower - a.q, a.q - limits.upper))) for a in answers)
@@ -146,8 +147,8 @@ def compared(
 ) -> Iterator[list[Row]]:
     """Yield the rows of one class after the other.
 
-    Methods take turns every few problems, so that a processor that becomes slower does so to all;
-    each warms up at the beginning of its turn.
+    Methods take turns every few problems, so that a slower processor affects all of them. Each
+    warms up at the beginning of its turn.
     """
     maker = Maker(rig)
     for kind in kinds:
@@ -164,10 +165,11 @@ def compared(
 
 
 def behind_best(rows: Sequence[Row], clear_m: float = math.inf) -> dict[str, float]:
-    """How far each method's worst answer stays behind the best that any has, metres.
+    """Return how far each method's worst answer is behind the best answer of any method, metres.
 
-    For problems that cannot be solved: the nearest posture is what is asked. Args: clear_m: count
-    as answers only those that leave no capsules deeper in each other.
+    This is for problems that cannot be solved, where the nearest posture is wanted.
+
+    Args: clear_m: count only answers whose capsules overlap no deeper than this.
     """
     best = [
         min((m.length_m for m, clear in zip(misses, clears, strict=True) if clear), default=None)
@@ -187,9 +189,9 @@ def behind_best(rows: Sequence[Row], clear_m: float = math.inf) -> dict[str, flo
 
 
 def of_solvable(rows: Sequence[Row], clear_m: float = math.inf) -> dict[str, tuple[int, int]]:
-    """How many of the problems that any method solves each one does, and of how many.
+    """Return how many of the problems that any method solves each method solves, and of how many.
 
-    Args: clear_m: count as solved only what leaves no capsules deeper in each other.
+    Args: clear_m: count as solved only answers whose capsules overlap no deeper than this.
     """
     solvable = [
         any(miss.within(TIGHT) and clear for miss, clear in zip(misses, clears, strict=True))
@@ -209,7 +211,7 @@ def _by_problem(rows: Sequence[Row]) -> list[tuple[Miss, ...]]:
 
 
 def _clear(rows: Sequence[Row], clear_m: float) -> list[tuple[bool, ...]]:
-    """Whether the answers to each problem leave no capsules deeper in each other."""
+    """Return whether the capsules of each answer overlap no deeper than a bound."""
     clear = [
         [depth <= clear_m for depth in row.overlaps_m or [0.0] * len(row.seconds)] for row in rows
     ]

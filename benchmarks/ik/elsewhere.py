@@ -1,8 +1,8 @@
-"""Methods that live in an environment of their own, which is made when first asked for.
+"""Methods that run in an environment of their own, which is made on first use.
 
-A problem goes out as JSON and a posture comes back: the chain's arrays as in `azee_rig.chain`, and
-the ordered IK problems, each with the coordinates it may move and its constraints, point to point,
-axis along or across axis, in the frames of nodes (−1 is the world).
+A problem goes out as JSON and a posture comes back. The JSON has the chain's arrays as in
+`azee_rig.chain`, and the ordered IK problems. Each problem has the coordinates it may move and its
+constraints: point to point, axis along or across axis, in the frames of nodes (−1 is the world).
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ READY = ".ready"
 
 
 class NotThere(Exception):  # noqa: N818 - it is no fault
-    """An environment could not be made; tells why in a line."""
+    """An environment could not be made; the message says why in a line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Environment:
     """A method in an environment of its own.
 
-    package: what is installed there, with its exact version.
+    package: the package that is installed there, with its exact version.
     """
 
     name: str
@@ -61,12 +61,12 @@ class Environment:
 
     @property
     def is_ready(self) -> bool:
-        """Whether it is there, with the version that is asked for."""
+        """Whether the environment exists, with the right version of the package."""
         ready = self.folder / READY
         return ready.exists() and ready.read_text(encoding="utf-8") == self.package
 
     def prepare(self) -> None:
-        """Make the environment unless it is there. Raises: NotThere: it cannot be made."""
+        """Make the environment unless it exists. Raises: NotThere: it cannot be made."""
         if self.is_ready:
             return
         venv.create(self.folder, clear=True, with_pip=True)
@@ -118,10 +118,10 @@ class Environment:
 
 
 def ordered_steps(rig: Rig, problem: Problem) -> list[tuple[frozenset[int], list[int]]]:
-    """The paper's ordered IK problems: what each moves, and its constraints.
+    """Return the paper's ordered IK problems: the coordinates of each, and its constraints.
 
-    A chain starts where that of an earlier placement ends. Where there is but one problem it may
-    move all that is known to suffice.
+    A chain starts where that of an earlier placement ends. If there is only one problem, it may
+    move all coordinates that are known to suffice.
     """
     binding = Binding(rig, Side.RIGHT)
     built = ProblemBuilder(problem.tasks, binding, anatomy(rig.chain, rig.coordinates)).build()

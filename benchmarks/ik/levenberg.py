@@ -1,11 +1,11 @@
 """A hand-written Levenberg–Marquardt kernel: the practical limit of speed for such problems.
 
-It knows residuals and limits, on request the distance from a posture at ease, and nothing of
-collisions, order or reasons. It shares no code
-with the solver that it is a yardstick for, its forward kinematics included. A step over
-the coordinates that are not held at a limit is cut off at the limits (Levenberg 1944, Marquardt
-1963). It goes by −Jᵀ (J Jᵀ + λ 1)⁻¹ r, whose matrix is small where constraints are few (Nakamura
-and Hanafusa 1986), or with ease by −(Jᵀ J + λ 1)⁻¹ Jᵀ r, which is the same.
+The kernel minimises residuals within the limits and, on request, the posture cost, that is, the
+distance from idle. It has no collisions, no order of problems and no reasons. It shares no code
+with the solver that it is compared with, not even forward kinematics. A step over the coordinates
+that are not held at a limit is cut off at the limits (Levenberg 1944, Marquardt 1963). The step is
+−Jᵀ (J Jᵀ + λ 1)⁻¹ r, whose matrix is small where constraints are few (Nakamura and Hanafusa 1986).
+With the posture cost it is −(Jᵀ J + λ 1)⁻¹ Jᵀ r, which is the same.
 """
 
 from __future__ import annotations
@@ -27,17 +27,18 @@ Ints = NDArray[np.int64]
 POINT, ALONG, ACROSS = range(3)
 MAX_STEPS = 100
 GAIN = 1e-6
-"""Part of the cost that a step must save for the next one to be made."""
+"""The share of the cost that a step must save for the next step to be made."""
 NOTHING: Array = np.empty(0)
 CLOSE = 0.25
-"""Of the squared tolerance: where the kernel stops."""
+"""The share of the squared tolerance at which the kernel stops."""
 
 
 class Flat:
     """Constraints of one problem on a chain, as arrays.
 
-    kinds: (C,). nodes: (C, 2) what is placed or turned and what it is compared with; −1 is the
-    world. locals_: (C, 2, 3) point or direction in the frames of those. weights: (C,).
+    kinds: (C,). nodes: (C, 2) the placed or turned node and the node that it is compared with; −1
+        is the world. locals_: (C, 2, 3) point or direction in the frames of these nodes. weights:
+        (C,).
     """
 
     def __init__(
@@ -97,15 +98,15 @@ class Flat:
         return r, J
 
     def worst(self, q: Array) -> float:
-        """Greatest residual at a posture, in tolerances; of directions their chords."""
+        """Return the greatest residual at a posture, in tolerances; for directions, the chord."""
         r, _ = self.residuals(q)
         return float(_worst(r, self.kinds))
 
     def descend(self, q: Array, keep: Array = NOTHING) -> tuple[Array, int]:
-        """Return where the kernel gets from a posture (V,), and how many evaluations it took.
+        """Return the end of a descent from a posture (V,), and its number of evaluations.
 
-        Args: keep: (n,) root of what a squared radian away from idle costs; with it the descent
-            ends where nothing more is gained, else as soon as all is met.
+        Args: keep: (n,) square root of the cost of a squared radian away from idle. With it, the
+            descent ends when a step gains no more; without it, as soon as all residuals are met.
         """
         q = q.copy()
         q[self.free] = np.clip(q[self.free], self.lower, self.upper)
@@ -117,7 +118,7 @@ class Flat:
 def flat_row(
     rig: Rig, constraint: Constraint, dominant: Side
 ) -> tuple[int, int, Array, int, Array]:
-    """Kind, node, point or direction in it, and the same of what it is compared with."""
+    """Return kind, node, point or direction in it, and the same of its counterpart."""
     if isinstance(constraint, Place) and rig.sites[constraint.site.key(dominant)].shares:
         raise ValueError(f"{constraint.site.name} rides on several nodes: pin the body's sites")
     match constraint:
@@ -367,7 +368,7 @@ def _descend(  # type: ignore[no-untyped-def]
 
 @njit(cache=True)
 def _ease(q, free, idle, keep, at, r, J):  # type: ignore[no-untyped-def]
-    """Residuals of the distance from idle, below those of the constraints."""
+    """Add the residuals of the distance from idle, below those of the constraints."""
     for k in range(keep.shape[0]):
         r[at + k] = keep[k] * (q[free[k]] - idle[k])
         J[at + k, k] = keep[k]

@@ -1,4 +1,4 @@
-"""Methods in this process: ours in its degrees, the published one, scipy's, and the yardstick."""
+"""Methods in this process: ours in several settings, the published one, scipy's, the LM kernel."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Answer:
-    """A posture (V,) and what it cost. rounds: of the two-level method, per IK problem."""
+    """A posture (V,) and its cost. rounds: of the two-level method, per IK problem."""
 
     q: Array
     seconds: float
@@ -47,13 +47,13 @@ FULL = SolveOptions(explain=False)
 APART = replace(FULL, overlap=0.0, overlap_m=math.inf)
 BARE = replace(APART, posture=0.0, comfort=0.0)
 STARTS = 10
-"""Idle and so many less one at random, for the methods that are nothing but a descent."""
+"""Number of starts (idle and random ones) of the methods that are a single descent each."""
 FEW_STARTS = 4
-"""The same for those that take their time."""
+"""The same for slower methods."""
 
 
 def ours(options: SolveOptions) -> Method:
-    """`solve`: problems built, grouped, solved, widened, prioritised and measured again."""
+    """Run `solve`: problems are built, grouped, solved, relaxed and measured again."""
 
     def method(rig: Rig, problem: Problem) -> Answer:
         idle = rig.coordinates.idle
@@ -85,7 +85,7 @@ def _answer(report: SolveReport, clock: Clock) -> Answer:
 
 
 def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
-    """Our descents alone, with posture cost: the clock starts when the problem is laid out."""
+    """Run our descents alone, with posture and comfort cost; the time excludes laying out."""
     idle = np.array(rig.coordinates.idle)
     evaluator = Evaluator(rig, Side.RIGHT)
     moving = anatomy(rig.chain, rig.coordinates).moved_by(problem.free)
@@ -121,16 +121,16 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
     return Answer(q, seconds, program.evaluations)
 
 
-def yardstick(*, ease: bool) -> Method:
-    """See `levenberg`; the clock starts when the problem is laid out.
+def yardstick(*, full: bool) -> Method:
+    """Return the kernel of `levenberg` as a method; the time excludes laying out.
 
-    Args: ease: whether it is to come near idle, by the same weights as ours.
+    Args: full: whether to minimise the posture cost too, with the same weights as ours.
     """
 
     def method(rig: Rig, problem: Problem) -> Answer:
         flat = Flat(rig, problem.constraints, problem.free, TIGHT)
         stiffness = rig.coordinates.stiffness[flat.free]
-        keep = math.sqrt(FULL.posture) * stiffness if ease else NOTHING
+        keep = math.sqrt(FULL.posture) * stiffness if full else NOTHING
         known = list(_random_starts(rig, flat))
         best, worst, evaluations = known[0], math.inf, 0
         clock = Clock()
@@ -148,7 +148,7 @@ def yardstick(*, ease: bool) -> Method:
 
 
 def scipy_trf(rig: Rig, problem: Problem) -> Answer:
-    """`scipy.optimize.least_squares`, trust region reflective, with the yardstick's Jacobian."""
+    """Run `scipy.optimize.least_squares`, method trf, with the LM kernel's Jacobian."""
     flat = Flat(rig, problem.constraints, problem.free, TIGHT)
     known = list(_random_starts(rig, flat))[:FEW_STARTS]
     best, worst, evaluations = known[0], math.inf, 0
@@ -180,7 +180,7 @@ def scipy_trf(rig: Rig, problem: Problem) -> Answer:
 
 
 def _random_starts(rig: Rig, flat: Flat) -> Iterator[Array]:
-    """Idle, pushed off its limits, then postures at random: the same for every problem."""
+    """Yield idle, moved off its limits, then random postures; the same for every problem."""
     rng = np.random.default_rng(0)
     room = 1e-3 * (flat.upper - flat.lower)
     first = np.array(rig.coordinates.idle)
@@ -201,6 +201,6 @@ METHODS: dict[str, Method] = {
     "ours, descents alone": ours_laid_out,
     "two-level": two_level,
     "scipy trf": scipy_trf,
-    "LM kernel with ease": yardstick(ease=True),
-    "LM kernel": yardstick(ease=False),
+    "LM kernel, full objective": yardstick(full=True),
+    "LM kernel": yardstick(full=False),
 }

@@ -1,4 +1,4 @@
-"""The results of a run as Markdown, put between two marks of a page."""
+"""Writes the results of a run as Markdown, between two marks of a page."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ START, END = "<!-- results: written by `run.py solver --page` -->", "<!-- end of
 
 
 def put_on_page(document: Mapping[str, Any], page: Path) -> None:
-    """Replace what stands between the marks of a page."""
+    """Replace the text between the marks of a page."""
     before, _, rest = page.read_text(encoding="utf-8").partition(START)
     _, mark, after = rest.partition(END)
     if not mark:
@@ -65,7 +65,7 @@ def _sections(document: Mapping[str, Any]) -> Iterable[str]:
 
 
 def _comparison(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Methods by classes: median time, and how many were met at either tolerance."""
+    """Return a table of methods and classes: median time, problems met at either tolerance."""
     kinds = list(dict.fromkeys(row["class"] for row in rows))
     cells = {(row["method"], row["class"]): _cell(row) for row in rows}
     methods = dict.fromkeys(row["method"] for row in rows)

@@ -1,7 +1,7 @@
 """Damped least squares on pinocchio's kinematics; runs in an environment that has `pin`.
 
-`python pinocchio_dls.py problems.json answers.json`: see `elsewhere` for the exchange. It is how
-users of a robotics library plainly write inverse kinematics: stacked task errors, pinocchio's
+`python pinocchio_dls.py problems.json answers.json`; `elsewhere` describes the exchange. Users of a
+robotics library commonly write inverse kinematics like this: stacked task errors, pinocchio's
 Jacobians, a damped Gauss-Newton step of limited length, clipped to the limits; four starts.
 """
 
@@ -116,7 +116,7 @@ def main() -> None:
         seconds = min(time.perf_counter() - began, time.process_time() - spent)
         answer = {"seconds": seconds, "evaluations": evaluations, "rounds": [], "q": q.tolist()}
         answers.append(answer)
-    # The first warmed up.
+    # The first problem warmed up.
     done = {"version": f"pinocchio {pin.__version__}", "answers": answers[1:]}
     Path(sys.argv[2]).write_text(json.dumps(done), encoding="utf-8")
 

@@ -1,8 +1,8 @@
-"""Problems that every method gets: reachable ones read off random postures, contacts, far targets.
+"""The problems of the comparison: reachable ones from random postures, contacts, far targets.
 
-Problem n of a class is drawn with the seed (SEED, class, n): none was chosen by hand, and a shorter
-run has the first problems of a longer one. A posture that gave the targets is inside the limits
-and, on a body that has capsules, leaves them apart: so it is known that the problem can be solved.
+Problem n of a class is drawn with the seed (SEED, class, n). So none was chosen by hand, and a
+shorter run has the first problems of a longer one. The posture that gave the targets is within the
+limits and, on a body with capsules, without overlap. So the problem is known to be solvable.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ TIGHT = (1e-3, math.radians(0.5))
 LOOSE = (1e-2, math.radians(5.0))
 """Tolerances, metres and radians: ours, and the paper's."""
 TRUNK_SHARE = 0.4
-"""Of its range: signers do not fold their trunk."""
+"""Share of its range that the trunk may use, since signers do not fold their trunk."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,7 +52,7 @@ class Problem:
 
     @property
     def constraints(self) -> list[Constraint]:
-        """What is asked, in order."""
+        """The constraints, in order."""
         return [task.constraint for task in self.tasks]
 
 
@@ -80,7 +80,7 @@ class Maker:
         self.clear: Callable[[Array], bool] = lambda q: not obstacles.overlaps(q)
 
     def classes(self) -> dict[str, Callable[[np.random.Generator], Problem | None]]:
-        """Return how to draw a problem of each class; none if that draw gave none."""
+        """Return a function per class that draws a problem, or none if a draw is unusable."""
         return {
             "place": self.place,
             "place, 1 orientation": self.place_and_orientation,
@@ -106,9 +106,9 @@ class Maker:
     def posture(
         self, rng: np.random.Generator, free: tuple[int, ...], spread: float = 0.9, stops: float = 0
     ) -> Array | None:
-        """Random coordinates inside the limits, a part of them at their stops; none if in itself.
+        """Return random coordinates within the limits, some at a limit; none if parts overlap.
 
-        Args: spread: part of the ranges that is used.
+        Args: spread: share of the ranges that is used.
         """
         q = np.array(self.rig.coordinates.idle)
         x = np.where(
@@ -122,26 +122,26 @@ class Maker:
         return q if self.clear(q) else None
 
     def at(self, site: str, side: Side, q: Array) -> Place:
-        """Return the placement of a site where a posture has it."""
+        """Return the placement of a site at its place in a posture."""
         named = Site(site, side)
         x, y, z = self.evaluator.site(named, self.rig.chain.frames(q)).tolist()
         return Place(named, WorldPoint(x, y, z))
 
     def as_in(self, axis: BoneAxis, bone: Bone, q: Array) -> Orient:
-        """Return the orientation that a bone has in a posture."""
+        """Return the orientation of a bone in a posture."""
         x, y, z = self.evaluator.axis(bone, axis, self.rig.chain.frames(q)).tolist()
         return Orient(axis, bone, Relation.ALONG, Vec(x, y, z))
 
     # Classes ----------------------------------------------------------------------------------
 
     def place(self, rng: np.random.Generator) -> Problem | None:
-        """The tip of the index finger, at a point."""
+        """Draw: the tip of the index finger at a point."""
         free = self.trunk + self.arm["R"]
         q = self.posture(rng, free)
         return None if q is None else problem([self.at("I_TIP", S, q)], free, q)
 
     def place_and_orientation(self, rng: np.random.Generator) -> Problem | None:
-        """The same, and one axis of the hand along or, one time in four, across a direction."""
+        """Draw the same, with one axis of the hand along or (one in four) across a direction."""
         free = self.trunk + self.arm["R"]
         q = self.posture(rng, free)
         if q is None:
@@ -157,7 +157,7 @@ class Maker:
         return problem([self.at("I_TIP", S, q), orient], free, q)
 
     def four(self, rng: np.random.Generator) -> Problem | None:
-        """The paper's problem 2: thumb tip's direction and middle phalanx's normal, upright arm."""
+        """Draw the paper's problem 2: directions of the thumb, upright arm and hand."""
         free = self.trunk + self.arm["R"] + self.thumb
         base: list[Constraint] = [
             Orient(DIR, Bone("palm", S), Relation.ALONG, UP),
@@ -167,7 +167,7 @@ class Maker:
         return None if q is None else problem([*self.thumb_as_in(q), *base], free, q)
 
     def thumb_as_in(self, q: Array) -> list[Constraint]:
-        """What the paper asks of the thumb, in a posture's directions."""
+        """Return the paper's constraints on the thumb, with the directions of a posture."""
         return [
             self.as_in(DIR, Bone("thumb", S, 3), q),
             self.as_in(NRM, Bone("thumb", S, 2), q),
@@ -180,7 +180,7 @@ class Maker:
         free: tuple[int, ...],
         moved: tuple[int, ...],
     ) -> Array | None:
-        """Return a random posture that the yardstick kernel has bent to meet some constraints."""
+        """Return a random posture that the LM kernel has changed to meet some constraints."""
         start = self.posture(rng, free)
         if start is None:
             return None
@@ -189,7 +189,7 @@ class Maker:
         return q if flat.worst(q) <= 1 and self.clear(q) else None
 
     def stops(self, rng: np.random.Generator) -> Problem | None:
-        """A place and the whole rotation of the hand, two fifths of the joints at a stop."""
+        """Draw: a place and the whole rotation of the hand, two fifths of the joints at a limit."""
         free = self.trunk + self.arm["R"]
         q = self.posture(rng, free, spread=1.0, stops=0.4)
         if q is None:
@@ -199,9 +199,9 @@ class Maker:
         return problem([self.at("I_TIP", S, q), *axes], free, q)
 
     def contact(self, rng: np.random.Generator) -> Problem | None:
-        """The weak hand somewhere in front, the strong one touching it, some palms turned.
+        """Draw: the weak hand somewhere in front, the strong hand touching it, some palms turned.
 
-        Not known to be solvable: judged by what any method solves.
+        These problems are not known to be solvable; they are judged by what any method solves.
         """
         weak = ("PA", "H_BACK")[int(rng.integers(2))]
         strong = ("I_TIP", "M_TIP", "T_TIP", "PA")[int(rng.integers(4))]
@@ -224,7 +224,7 @@ class Maker:
         return problem(constraints, self.trunk + self.arm["L"] + self.arm["R"])
 
     def tree(self, rng: np.random.Generator) -> Problem | None:
-        """The paper's eleven problems at some place, with a thumb that this body can follow."""
+        """Draw the paper's eleven problems at some place, with a possible thumb."""
         low, high = np.array([-0.2, -0.32, 0.18]), np.array([0.05, -0.18, 0.32])
         x, y, z = (
             self.rig.landmarks.shoulder_middle + self.evaluator.scale * rng.uniform(low, high)
@@ -256,7 +256,7 @@ class Maker:
         return problem(whole, self.trunk + arms + self.thumb + self.fingers)
 
     def unreachable(self, rng: np.random.Generator) -> Problem | None:
-        """The index finger, towards a point farther from the shoulder than it can get."""
+        """Draw: the index finger at a point farther from the shoulder than it can reach."""
         free = self.trunk + self.arm["R"] + self.index
         q = self.posture(rng, free)
         if q is None:

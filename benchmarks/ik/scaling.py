@@ -1,4 +1,4 @@
-"""How time grows with the number of problems in a moment, of moments, and of joints in a chain."""
+"""Measures how time grows with problems in a moment, with moments, with joints in a chain."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from benchmarks.ik.methods import FULL, METHODS, Answer
 from benchmarks.ik.problems import Maker, Problem, problem
 
 STEPS = (1, 2, 3, 5, 8, 11)
-"""Problems of the tree, from its first on."""
+"""Numbers of problems of the tree, from its first on."""
 MOMENTS = (1, 4, 14)
-"""Trees one after the other: 11, 44 and 154 problems; the paper's sentence has 152."""
+"""Numbers of trees one after the other: 11, 44 and 154 problems; the paper's sentence has 152."""
 
 
 def by_problems(rig: Rig, repeats: int) -> Iterator[dict[str, object]]:
-    """Yield the time of moments with more and more of the tree's problems, collision off."""
+    """Yield the time of moments with more and more of the tree's problems, without collision."""
     maker = Maker(rig)
     trees = list(maker.problems("tree", repeats))
     for step in STEPS:
-        # The weak hand, the strong elbow, arm and thumb, then a finger's phalanx each.
+        # The weak hand, the strong elbow, arm and thumb, then one phalanx of a finger each.
         constraints = {1: 3, 2: 4}.get(step, 5 + step)
         seconds = []
         for tree in trees:
@@ -34,7 +34,7 @@ def by_problems(rig: Rig, repeats: int) -> Iterator[dict[str, object]]:
 
 
 def by_moments(rig: Rig) -> Iterator[dict[str, object]]:
-    """Yield the time of trees at one place after the other, each starting from the last."""
+    """Yield the time of trees at one place after the other, each starting from the one before."""
     maker = Maker(rig)
     trees = list(maker.problems("tree", MOMENTS[-1]))
     idle = rig.coordinates.idle

@@ -1,4 +1,4 @@
-"""Whole signs and sentences: the examples on one time line, by our solver and the published one."""
+"""Solves the examples, signs and sentences on one time line, by our and the published solver."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def example_tree(
 ) -> list[float]:
     """Return how long methods take for the posture of the example, seconds.
 
-    Args: thumb: ask for the published directions of the thumb too, of which one is impossible.
+    Args: thumb: include the published directions of the thumb, of which one is impossible.
     """
     score = score_of(load(read_source(source)), None, None)
     tasks = perform(score, rig, mode="flat").report.postures[0].ik_tasks
@@ -49,7 +49,7 @@ def _is_of_thumb(constraint: Constraint) -> bool:
 
 
 def figure_5(rig: Rig, source: Path) -> list[dict[str, object]]:
-    """Return what the paper's figure 5 shows of a posture: its IK problems and their iterations."""
+    """Return the figures of the paper's figure 5 for a posture: its IK problems and iterations."""
     score = score_of(load(read_source(source)), None, None)
     report = perform(score, rig, mode="flat", solver="two-level").report.postures[0].report
     return [
@@ -69,7 +69,7 @@ def figure_5(rig: Rig, source: Path) -> list[dict[str, object]]:
 
 
 def signs(rig: Rig, sources: list[Path]) -> Iterator[dict[str, object]]:
-    """Yield what solving a text takes and leaves, per source and solver."""
+    """Yield the time and the missed constraints of a text, per source and solver."""
     for source in sources:
         score = score_of(load(read_source(source)), None, None)
         for solver in SOLVERS:

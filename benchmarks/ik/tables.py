@@ -1,4 +1,4 @@
-"""The comparison's findings as tables on a terminal."""
+"""Tables of the comparison on a terminal."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from benchmarks.ik.problems import LOOSE, TIGHT
 
 
 def comparison(rows: Sequence[Row]) -> Table:
-    """One class of problems: a line per method."""
+    """Return the table of one class of problems, with a line per method."""
     first = rows[0]
     table = _table(
         f"{first.body}: {first.kind}, {len(first.seconds)} problems",
@@ -45,7 +45,7 @@ def comparison(rows: Sequence[Row]) -> Table:
 
 
 def _rounds(counts: Sequence[int]) -> str:
-    """Iterations as in the paper's figures 5 and 8."""
+    """Describe iterations as in the paper's figures 5 and 8."""
     one, most = sum(c == 1 for c in counts), sum(c >= max(counts) for c in counts)
     return (
         f"{len(counts)} IK problems in {sum(counts)} iterations, {one} in one, "
@@ -54,7 +54,7 @@ def _rounds(counts: Sequence[int]) -> str:
 
 
 def figure_5(rows: Sequence[Mapping[str, Any]]) -> Table:
-    """The tree by the two-level method, as in the paper's figure 5."""
+    """Return the table of the tree by the two-level method, as in the paper's figure 5."""
     table = _table(
         "tree, two-level: the paper's figure 5",
         "IK problem", "places", "orientations", "iterations", "ms",
@@ -71,7 +71,7 @@ def figure_5(rows: Sequence[Mapping[str, Any]]) -> Table:
 
 
 def signs(rows: Sequence[Mapping[str, Any]]) -> Table:
-    """Whole texts: a line per text and solver."""
+    """Return the table of whole texts, with a line per text and solver."""
     table = _table(
         "signs and sentences, the signer, everything on",
         "text", "solver", "IK problems", "score to clip ms", "evaluations", "unmet", "overlap mm",
@@ -92,7 +92,7 @@ def signs(rows: Sequence[Mapping[str, Any]]) -> Table:
 
 
 def scaling(found: Mapping[str, Sequence[Mapping[str, Any]]]) -> Table:
-    """How time grows."""
+    """Return the table of how time grows."""
     table = _table("how time grows, the signer", "with", "number", "ms", "ms for each")
     for what, rows in found.items():
         for row in rows:
@@ -108,7 +108,7 @@ def scaling(found: Mapping[str, Sequence[Mapping[str, Any]]]) -> Table:
 
 
 def processes(found: Mapping[str, float]) -> Table:
-    """What a process pays, and the profile of one."""
+    """Return the table of what a process costs, with the profile of one."""
     table = _table("a process", "what", "ms")
     for what, seconds in found.items():
         table.add_row(what, f"{1000 * seconds:.0f}")
@@ -116,7 +116,7 @@ def processes(found: Mapping[str, float]) -> Table:
 
 
 def goals(found: Sequence[Goal]) -> Table:
-    """Figures beside their goals."""
+    """Return the table of figures and their goals."""
     table = _table("goals", "what", "is", "should be", "")
     for goal in found:
         bounds = [f"≥ {goal.at_least:g}"] if goal.at_least is not None else []

@@ -184,7 +184,7 @@ def test_frames_are_judged_from_the_report(capsys: pytest.CaptureFixture[str]) -
     [("place, 2 at stops", 41), ("place, 2 at stops", 64), ("two-handed contact", 58)],
 )
 def test_what_searches_that_ended_too_soon_have_missed(signer: Rig, kind: str, number: int) -> None:
-    """Near misses are looked on for, ends that differ prove nothing, hands come out of the body."""
+    """Near misses are searched further, unequal ends prove nothing, hands come out of the body."""
     rig = pinned(signer)
     asked = next(itertools.islice(Maker(rig).problems(kind, number + 1), number, None))
     answer = METHODS["ours, everything on"](rig, asked)

@@ -13,19 +13,19 @@ END = "$END"
 
 
 class UnparsableError(Exception):
-    """Nothing can be made of the item; every mistake in it has been reported."""
+    """The item cannot be parsed; all its mistakes have been reported."""
 
 
 class _Parts(list[Any]):
-    """What a rule hands on to the rule that contains it, which may be parts again."""
+    """What a rule passes to the rule that contains it; the values may be parts again."""
 
 
 class Automaton:
-    """Reads the tokens of one item; `builder` makes its nodes, `mistaken` hears of its mistakes.
+    """Parses the tokens of one item; `builder` makes its nodes, `mistaken` receives its mistakes.
 
-    After a mistake the line it stands in is passed over together with its deeper lines, and the
-    grammar's BROKEN takes its place: the state before each line is kept for that. So each line
-    that is wrong is reported once, and no line for the fault of another.
+    After a mistake, the line is skipped together with its deeper lines, and the grammar's BROKEN
+    takes its place. For this, the state before each line is kept. So each wrong line is reported
+    once, and no line is reported because of a mistake in another.
     """
 
     def __init__(
@@ -42,7 +42,7 @@ class Automaton:
     def run(self, start: str) -> Any:
         """Return the value of a start symbol of the grammar.
 
-        Raises: UnparsableError: a mistake stands in a line that nothing can take the place of.
+        Raises: UnparsableError: a mistake is in a line that BROKEN cannot replace.
         """
         self._end = self._table.ends[start]
         self._states, self._values = [self._table.starts[start]], []
@@ -78,9 +78,9 @@ class Automaton:
         return self._values[-1]
 
     def _feed(self, token: Token) -> bool:
-        """Reduce as far as a token allows, then shift it; False where the grammar has no place.
+        """Reduce as far as a token allows, then shift it; False if the grammar does not allow it.
 
-        The end of the item is not shifted: it is taken once the start symbol has been reduced to.
+        The end of the item is not shifted: it is accepted once the start symbol is reduced.
         """
         table = self._table
         states, values = self._states, self._values
@@ -116,7 +116,7 @@ class Automaton:
         return getattr(self._builder, rule.action)(flat)
 
     def _after_line(self, at: int) -> int:
-        """Index after the line of a token and its deeper lines."""
+        """Return the index after the line of a token and its deeper lines."""
         tokens = self._tokens
         while at < len(tokens) and tokens[at].kind != "_NEWLINE":
             at += 1
@@ -126,7 +126,7 @@ class Automaton:
         return at
 
     def _after_block(self, at: int) -> int:
-        """Index after the DEDENT that belongs to the INDENT at an index."""
+        """Return the index after the DEDENT that belongs to the INDENT at an index."""
         depth = 0
         while at < len(self._tokens):
             kind = self._tokens[at].kind

@@ -65,14 +65,14 @@ class Builder:
         return Utterance(expr.span, expr)
 
     def broken(self, _parts: list[Token]) -> None:
-        """Stand for a line with a mistake."""
+        """Return the node that takes the place of a line with a mistake."""
 
     # Applications
 
     def application(self, parts: list[Any]) -> Application:
         """Apply a head to the operands that follow it."""
         head, *operands = parts
-        # Broken lines leave no operand; an item that has any is not handed out.
+        # Broken lines leave no operand; an item with any broken line is not returned.
         kept = tuple(operand for operand in operands if operand is not None)
         span: Span = head.span
         if kept:
@@ -80,7 +80,7 @@ class Builder:
         return Application(span, head, kept, called=False)
 
     def bare(self, parts: list[Head]) -> Application:
-        """Take a head alone, as an operand."""
+        """Make an application of a head alone, as an operand."""
         (head,) = parts
         return Application(head.span, head, (), called=False)
 
@@ -104,14 +104,14 @@ class Builder:
         return Named(name.span.to(value.span), name, value)
 
     def inner(self, parts: list[Any]) -> Expr:
-        """Take what stands in parentheses as it is."""
+        """Return the expression inside parentheses unchanged."""
         expr: Expr = parts[0]
         return expr
 
     # Words
 
     def head(self, parts: list[Token]) -> Head:
-        """Name what is applied."""
+        """Return the head of an application."""
         (token,) = parts
         span = self._span(token)
         if token.kind in FORMS:

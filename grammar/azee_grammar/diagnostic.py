@@ -1,4 +1,4 @@
-"""What is wrong with a text, as plain data; `render` (render.py) makes it readable."""
+"""Mistakes in a text, as plain data; `render` (render.py) makes them readable."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Severity(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Related:
-    """A further place that helps to understand, such as a call on the rule call stack."""
+    """A further place that explains a mistake, such as a call on the rule call stack."""
 
     message: str
     span: Span
@@ -25,10 +25,10 @@ class Related:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One mistake: a stable kebab-case code, the user's words, the place and the remedy.
+    """One mistake: a stable kebab-case code, a message in the user's words, place and remedy.
 
-    `span` is None where no text is at hand, as for a file that cannot be read.
-    `label` stands behind the caret; `related` holds the rule call stack, innermost first.
+    `span` is None if there is no text, as for a file that cannot be read. `label` follows the
+    carets; `related` holds the rule call stack, innermost first.
     """
 
     code: str
@@ -42,7 +42,7 @@ class Diagnostic:
 
 
 class AZeeError(Exception):
-    """The input is at fault. Carries one or more diagnostics; nobody prints them on the way."""
+    """The input has mistakes. Carries the diagnostics, which only the outermost caller prints."""
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
         super().__init__("; ".join(f"{d.code}: {d.message}" for d in diagnostics))

@@ -1,4 +1,4 @@
-"""A line of a text with carets below a part of it, aligned as a terminal shows it."""
+"""A line of a text with carets below a part of it, aligned for a terminal."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from azee_grammar.source import Span
 
 TAB_STOP = 4
 WIDEST = 100
-"""Columns of a line that are shown; of a longer one, those around the carets."""
+"""How many columns of a line are shown; of a longer line, those around the carets."""
 
-_LEAD = 30  # columns that stay before the carets of a cut line
+_LEAD = 30  # columns that stay before the carets in a shortened line
 _CUT = "…"
 
 
 @dataclass(frozen=True, slots=True)
 class Excerpt:
-    """The line as it is shown, the blanks below it up to the span, and the carets."""
+    """The shown line, the blanks below it up to the span, and the carets."""
 
     line: str
     indent: str
@@ -29,7 +29,7 @@ class Excerpt:
         text = span.source.line(span.line)
         start = min(span.column - 1, len(text))
         end = min(start + span.end - span.start, len(text))
-        # Only what can be in view is looked at: a line may hold megabytes.
+        # Only what can be visible is examined: a line may have megabytes.
         skipped = max(0, start - 4 * WIDEST)
         cells = _cells(text[skipped : start + 4 * WIDEST])
         before = sum(width for _, width in cells[: start - skipped])
@@ -64,7 +64,7 @@ class Excerpt:
 
 
 def _cells(text: str) -> list[tuple[str, int]]:
-    """Return for each character what is shown for it, and over how many columns."""
+    """Return for each character how it is shown, and over how many columns."""
     cells: list[tuple[str, int]] = []
     column = 0
     for c in text:
@@ -86,14 +86,14 @@ def _width(c: str) -> int:
 
 
 def printable(text: str) -> str:
-    """Return a text with everything escaped that could steer a terminal or hide in it."""
+    """Return a text, with characters escaped that could control a terminal or be invisible."""
     if text.isprintable():
         return text
     return "".join(c if _shows(c) else _escape(c) for c in text)
 
 
 def _shows(c: str) -> bool:
-    # Joiners and combining marks belong to words of many scripts; odd spaces are only spaces.
+    # Joiners and combining marks belong to words of many scripts; odd spaces are shown as spaces.
     return c.isprintable() or c in "\u200c\u200d" or unicodedata.category(c) in ("Zs", "Co", "Cn")
 
 

@@ -1,4 +1,4 @@
-"""Texts from files: what can go wrong there is one diagnostic, never a Python exception."""
+"""Reads texts from files; whatever goes wrong becomes one diagnostic, never a Python exception."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from azee_grammar.diagnostic import AZeeError, Diagnostic
 from azee_grammar.source import Source, Span
 
 LARGEST_BYTES = 16 * 1024 * 1024
-"""A text beyond this is refused before it is read whole: no corpus file comes near it."""
+"""A larger text is refused before it is read whole; files of corpora are much smaller."""
 
 TEXT_SUFFIXES = (".azee", ".az")
-"""Of files with AZee in them."""
+"""Suffixes of files with AZee."""
 STANDARD_INPUT = "-"
 
 _BOM = b"\xef\xbb\xbf"
@@ -73,7 +73,7 @@ def _unreadable(name: str, problem: OSError | ValueError) -> Diagnostic:
 
 
 def _not_utf8(data: bytes, name: str, offset: int) -> Diagnostic:
-    """Point at the first byte that is no UTF-8, in what can be read of the text before it."""
+    """Mark the first byte that is not UTF-8, in the readable text before it."""
     if data[:2] in _UTF16:
         return Diagnostic(
             "not-utf8",

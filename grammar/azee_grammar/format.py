@@ -1,8 +1,8 @@
-"""One way to lay a text out: the canonical form, and the published one with a token a line.
+"""Formats a text in the canonical layout, or in the published layout with one token per line.
 
-The tree does not change, only its layout. In canonical form an application whose operands need no
-lines of their own stays on one line of at most 80 columns; else each operand has a line, a symbol
-together with its value. Comments stay by the line they were written at.
+The tree does not change, only its layout. In the canonical layout, an application stays on one line
+of at most 80 columns if its operands need no lines of their own. Otherwise each operand has a line,
+a symbol together with its value. Comments stay at their lines.
 """
 
 from __future__ import annotations
@@ -41,11 +41,11 @@ INDENT = "    "
 
 
 def format_file(text: File | Source, *, published: bool = False) -> str:
-    """Return a text in canonical form, or with `published` in that of the publications.
+    """Return a text in canonical layout, or with `published` in the layout of the publications.
 
-    In published form one token stands on each line. Calls of bones and sites, and of rules whose
-    operands are all named, become lines; other calls stay, as only the declaration of a rule
-    tells the names of its operands.
+    In the published layout, each line has one token. Calls of bones and sites become lines, and so
+    do calls of rules whose operands are all named. Other calls stay, because only the declaration
+    of a rule gives the names of its operands.
 
     Raises: AZeeError: the text has mistakes.
     """
@@ -66,7 +66,7 @@ def format_file(text: File | Source, *, published: bool = False) -> str:
 
 
 def one_line(expr: Expr) -> str:
-    """Return an expression in canonical form but on one line, however long; comments are lost."""
+    """Return an expression in canonical layout but on one line, without comments."""
     return _flat(expr)
 
 
@@ -96,13 +96,13 @@ class _Printer:
             else:
                 self.line(1, f"{_flat(name)} {_flat(text)}", name.span.to(text.span))
         if isinstance(node.body, Symbol):
-            # A symbol there would be read as the name of an entry.
+            # After `def`, a symbol would be read as the name of an entry.
             self.line(1, f"({_flat(node.body)})", node.body.span)
         else:
             self.expression(node.body, 1)
 
     def expression(self, node: Expr, depth: int, lead: Symbol | None = None) -> None:
-        """Lay out an expression at a depth, behind a symbol on the same line if one leads."""
+        """Lay out an expression at a depth, after a symbol on the same line if one precedes it."""
         if self._published:
             node = _uncalled(node)
         span = node.span if lead is None else lead.span.to(node.span)
@@ -125,7 +125,7 @@ class _Printer:
                 return
         beside = self._beside(node, depth)
         if beside:
-            # Behind a symbol they would be words of the symbol's row.
+            # After a symbol they would be words of the symbol's row.
             if lead is not None:
                 self.line(depth, _flat(lead), lead.span)
             self.line(depth, *beside)
@@ -169,7 +169,7 @@ class _Printer:
     def _call(
         self, node: Application, depth: int, prefix: str, span: Span, after: str = ""
     ) -> None:
-        """Lay out a call, with `after` behind its parenthesis."""
+        """Lay out a call, with `after` following its parenthesis."""
         flat = f"{prefix}{_flat(node)}{after}"
         if not node.operands or self._fits(depth, flat, node.span):
             self.line(depth, flat, span)
@@ -200,7 +200,7 @@ class _Printer:
 
 
 def _flat(node: Expr | Named, *, nested: bool = False) -> str:
-    """Return an expression as one line; `nested` puts it in parentheses where it has operands."""
+    """Return an expression as one line; `nested` adds parentheses if it has operands."""
     match node:
         case Number(text=text):
             return text
@@ -227,8 +227,8 @@ def _flat(node: Expr | Named, *, nested: bool = False) -> str:
 def _joined(parts: Sequence[str], nodes: Sequence[Expr | Named]) -> str:
     """Join words with spaces.
 
-    The name of a rule would take up a word behind it that begins with a letter: parentheses
-    around that word keep it apart.
+    The name of a rule would include a following word that begins with a letter. Parentheses around
+    that word keep it apart.
     """
     text = parts[0]
     for i in range(1, len(parts)):
@@ -260,7 +260,7 @@ def _head(head: Head) -> str:
 
 
 def _uncalled(node: Expr) -> Expr:
-    """Return a call as an application with lines for its operands, where that says the same."""
+    """Return a call as an application with lines for its operands, if that has the same meaning."""
     if not isinstance(node, Application) or not node.called:
         return node
     operands: list[Expr] = []

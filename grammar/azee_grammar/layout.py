@@ -1,8 +1,8 @@
-"""Lines into items: indentation, parentheses that span lines, and what may be wrong with either.
+"""Splits lines into items, by indentation and by parentheses that span lines; reports mistakes.
 
-An item is a line at the margin with all deeper lines below it, and with what stands in its
-parentheses, however that is indented. Nothing that is wrong in one item reaches the next: a
-parenthesis that is never closed ends where the next line stands at the margin.
+An item is a line at the margin with all deeper lines below it and with the content of its
+parentheses, however that is indented. A mistake in one item does not affect the next: a parenthesis
+that is never closed ends at the next line at the margin.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from azee_grammar.token import BAD, Token
 from azee_grammar.words import WordReader
 
 DEEPEST = 200
-"""Levels of indentation, parentheses and named operands together: who reads the tree recurses."""
+"""Levels of indentation, parentheses and named operands together; code recurses over the tree."""
 
 _LINE = re.compile(r"([^\r\n]*)(?:\r\n|\r|\n|\Z)")
 _SPACE = re.compile(r"\s*")
@@ -29,9 +29,9 @@ _DEF = re.compile(r"def(?=\s|\Z)")
 
 @dataclass(slots=True)
 class Item:
-    """The tokens of one item, and what was found wrong while reading them.
+    """The tokens of one item, and its mistakes.
 
-    An item without tokens carries only diagnostics.
+    An item without tokens has only diagnostics.
     """
 
     tokens: list[Token] = field(default_factory=list)
@@ -41,8 +41,9 @@ class Item:
 class LayoutReader:
     """Splits a source into items and marks their nesting with INDENT and DEDENT tokens.
 
-    With `indented` the first line sets the margin, as for an expression given on a command line;
-    else the margin is the line's beginning. `comments` is complete once all items were taken.
+    With `indented` the first line sets the margin, as for an expression on a command line.
+    Otherwise the margin is the beginning of the line. `comments` is complete once all items were
+    taken.
     """
 
     def __init__(self, source: Source, *, indented: bool = False) -> None:
@@ -54,8 +55,8 @@ class LayoutReader:
         self._item = Item()
         self._levels: list[str] = []  # prefixes of the enclosing lines; empty outside of items
         self._open: list[int] = []  # indices of the tokens of unclosed parentheses
-        self._named: set[int] = set()  # those of them in which an argument's name was last read
-        self._wrong = False  # whether the line being read has a mistake that hides its shape
+        self._named: set[int] = set()  # those in which an argument's name came last
+        self._wrong = False  # whether the line being read has a mistake that hides its structure
         self._skipping = False
 
     def items(self) -> Iterator[Item]:
@@ -76,7 +77,7 @@ class LayoutReader:
         yield from self._finish()
 
     def _lines(self) -> Iterator[tuple[int, int, int]]:
-        """Yield start, first visible character and end of each line that is not only comment."""
+        """Yield start, first visible character and end of each line that is not only a comment."""
         text = self._text
         at = 1 if text.startswith("\ufeff") else 0
         while at < len(text) and self._words.left >= 0:
@@ -93,7 +94,7 @@ class LayoutReader:
             at = line.end()
 
     def _continues(self, start: int, first: int) -> bool:
-        """Whether a line at the margin stands in parentheses of the item above."""
+        """Whether a line at the margin is inside parentheses of the item above."""
         if self._skipping:
             return self._text[first] == ")"
         return bool(self._open) and self._closings.closes(start, len(self._open))
@@ -103,7 +104,7 @@ class LayoutReader:
         return Closings(self._text)
 
     def _placed(self, prefix: str, start: int, first: int) -> bool:
-        """Relate a line to the lines above by its prefix; False where that cannot be done."""
+        """Relate a line to the lines above by its prefix; return False if that is impossible."""
         levels = self._levels
         span = Span(self.source, start, first)
         if not levels:
@@ -199,7 +200,7 @@ class LayoutReader:
             yield item
 
     def _close(self) -> None:
-        """Report the parentheses that are open, unless what is reported already explains them."""
+        """Report the open parentheses, unless an earlier mistake already explains them."""
         tokens = self._item.tokens
         count = len(self._open)
         at = self._open[0]
@@ -222,7 +223,7 @@ class LayoutReader:
         self._add("_NEWLINE", end)
 
     def _refuse(self, diagnostic: Diagnostic) -> bool:
-        """Report, and pass over the rest of the item."""
+        """Report a mistake and skip the remaining item."""
         self._report(diagnostic)
         self._skipping = True
         self._open = []
@@ -276,7 +277,7 @@ def _described(prefix: str) -> str:
 
 
 def _widths(prefix: str, levels: list[str]) -> str:
-    """Name the two levels between which a line stands."""
+    """Describe the two levels between which the indentation of a line lies."""
     shorter = [level for level in levels if len(level) < len(prefix)]
     longer = levels[len(shorter)]
     near = [_described(level) for level in (*shorter[-1:], longer)]

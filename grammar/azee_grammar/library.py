@@ -13,6 +13,6 @@ def shipped() -> Path:
 
 
 def shipped_names() -> tuple[str, ...]:
-    """Return the names of the shipped libraries, as they stand after `use '`."""
+    """Return the names of the shipped libraries, as they are written after `use '`."""
     folders = (folder for folder in _RULES.iterdir() if folder.is_dir())
     return tuple(sorted(folder.name for folder in folders if any(folder.glob("*.azee"))))

@@ -1,4 +1,4 @@
-"""What can be wrong with a single word, and how to say it."""
+"""Mistakes in single words, and their messages."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.source import Span
 
 APOSTROPHES = frozenset("’‘‛′´`ʼ＇")
-"""What word processors and keyboards put in the place of a straight apostrophe."""
+"""Characters that word processors and keyboards write instead of a straight apostrophe."""
 
 QUOTES = frozenset("“”„‟″«»＂")
-"""What they put in the place of straight quotation marks."""
+"""Characters that they write instead of straight quotation marks."""
 
 MINUSES = "−–—‐‑‒﹣－"
-"""What they put in the place of a hyphen-minus."""
+"""Characters that they write instead of a hyphen-minus."""
 
 INVISIBLE = re.compile(
     "[\0-\x08\x0e-\x1b\x7f-\x84\x86-\x9f\u00ad\u061c\u180e\u200b\u200e\u200f\u202a-\u202e"
     "\u2060-\u206f\ufeff\ufff9-\ufffb\ud800-\udfff\U000e0000-\U000e007f]"
 )
-"""Controls, marks of direction and other characters that nobody sees (but not joiners)."""
+"""Controls, marks of direction and other invisible characters (but not joiners)."""
 
 _CLOSING = {"“": "”", "„": "“”", "«": "»", "»": "«", "”": "”", "‟": "”", "″": "″", "＂": "＂"}
 _MINUS_IN_REF = re.compile(rf":([{MINUSES}])\.?[0-9]")
@@ -42,7 +42,7 @@ _SIGILS = ":.'^!@?#"
 def looks_like_number(word: str) -> bool:
     """Whether a word is more likely a misspelt number than a name.
 
-    After a dot a name may begin with a digit (`.2nd`), so that only units and signs tell.
+    After a dot, a name may begin with a digit (`.2nd`), so only units and signs decide.
     """
     if word.startswith("."):
         return bool(_NUMBER_AND_UNIT.fullmatch(word)) or (
@@ -52,7 +52,7 @@ def looks_like_number(word: str) -> bool:
 
 
 def bad_number(span: Span) -> Diagnostic:
-    """Answer a word that begins like a number."""
+    """Report a word that begins like a number."""
     word = span.text
     if word[0] in MINUSES and _LIKE_NUMBER.match(word):
         return not_a_minus(span)
@@ -87,7 +87,7 @@ def bad_number(span: Span) -> Diagnostic:
 
 
 def not_a_minus(span: Span) -> Diagnostic:
-    """Answer a dash that stands where a minus should."""
+    """Report a dash in the place of a minus."""
     text = span.text
     name = unicodedata.name(text[0], "a dash").lower()
     return Diagnostic(
@@ -100,13 +100,13 @@ def not_a_minus(span: Span) -> Diagnostic:
 
 
 def minus_in_ref(word: str) -> tuple[int, int] | None:
-    """Return where in a ref such as `'A:start:−.25` a dash stands in the place of a minus."""
+    """Return where a ref such as `'A:start:−.25` has a dash in the place of a minus."""
     found = _MINUS_IN_REF.search(word)
     return (found.start(1), len(word)) if found else None
 
 
 def decimal_comma(span: Span) -> Diagnostic:
-    """Answer `0,5`."""
+    """Report `0,5`."""
     return Diagnostic(
         "bad-number",
         f"`{span.text}` has a decimal comma",
@@ -116,7 +116,7 @@ def decimal_comma(span: Span) -> Diagnostic:
 
 
 def too_many_digits(span: Span, digits: int, most: int) -> Diagnostic:
-    """Answer a number whose last digits no computation keeps."""
+    """Report a number with more digits than any computation keeps."""
     return Diagnostic(
         "bad-number",
         f"this number has {digits} digits; {most} is the most",
@@ -126,7 +126,7 @@ def too_many_digits(span: Span, digits: int, most: int) -> Diagnostic:
 
 
 def too_many_words(span: Span, most: int) -> Diagnostic:
-    """Answer the first word that is not read any more."""
+    """Report the first word beyond the limit of words."""
     return Diagnostic(
         "size-limit",
         f"this text has more than {most:,} words, signs and comments; the rest of it is not read",
@@ -136,7 +136,7 @@ def too_many_words(span: Span, most: int) -> Diagnostic:
 
 
 def curly_apostrophe(span: Span) -> Diagnostic:
-    """Answer `’word`."""
+    """Report `’word`."""
     return Diagnostic(
         "syntax",
         f"`{span.text}` begins with a curly apostrophe",
@@ -146,7 +146,7 @@ def curly_apostrophe(span: Span) -> Diagnostic:
 
 
 def curly_quotes(span: Span) -> Diagnostic:
-    """Answer `“text”`."""
+    """Report `“text”`."""
     inside = span.text[1:].rstrip("".join(QUOTES))
     return Diagnostic(
         "syntax",
@@ -157,7 +157,7 @@ def curly_quotes(span: Span) -> Diagnostic:
 
 
 def closing_quote(text: str, start: int, end: int) -> int:
-    """Return where a text that opens with a curly quotation mark ends, at most at `end`."""
+    """Return where a text that begins with a curly quotation mark ends, at most at `end`."""
     closing = _CLOSING[text[start]] + '"'
     for at in range(start + 1, end):
         if text[at] in closing:
@@ -166,7 +166,7 @@ def closing_quote(text: str, start: int, end: int) -> int:
 
 
 def unclosed_text(span: Span) -> Diagnostic:
-    """Answer a quotation mark without its partner on the line."""
+    """Report a quotation mark without its partner on the line."""
     return Diagnostic(
         "unclosed-text",
         "this text is never closed",
@@ -177,7 +177,7 @@ def unclosed_text(span: Span) -> Diagnostic:
 
 
 def missing_space(span: Span) -> Diagnostic:
-    """Answer two words that touch."""
+    """Report two words without a space between them."""
     return Diagnostic(
         "syntax",
         f"a space is missing before `{shortened(span.text)}`",
@@ -186,7 +186,7 @@ def missing_space(span: Span) -> Diagnostic:
 
 
 def missing_name(span: Span) -> Diagnostic:
-    """Answer a sigil with nothing behind it."""
+    """Report a sigil without a name."""
     what = {
         ":": "the name of a rule",
         ":#": "the name of a posture rule",
@@ -203,7 +203,7 @@ def missing_name(span: Span) -> Diagnostic:
 
 
 def rule_name(name: str, span: Span) -> Diagnostic | None:
-    """Say what is wrong with the name of a rule, if anything."""
+    """Describe the mistake in the name of a rule, if there is any."""
     if name[0] in _SIGILS:
         bare = name.lstrip(_SIGILS)
         return Diagnostic(
@@ -232,7 +232,7 @@ def rule_name(name: str, span: Span) -> Diagnostic | None:
 
 
 def definition_without_name(span: Span) -> Diagnostic:
-    """Answer `def` alone."""
+    """Report `def` without a name."""
     return Diagnostic(
         "syntax",
         "this definition has no name",
@@ -242,7 +242,7 @@ def definition_without_name(span: Span) -> Diagnostic:
 
 
 def bracket(span: Span) -> Diagnostic | None:
-    """Answer characters that other languages use."""
+    """Report characters of other programming languages."""
     word = unicodedata.normalize("NFC", span.text)
     for c in (word[0], word[-1]):
         if c in _BRACKETS:
@@ -251,7 +251,7 @@ def bracket(span: Span) -> Diagnostic | None:
 
 
 def invisible(span: Span) -> Diagnostic:
-    """Answer a character that nobody sees."""
+    """Report an invisible character."""
     code = ord(span.text)
     name = unicodedata.name(span.text, "a control character").lower()
     return Diagnostic(
@@ -263,5 +263,5 @@ def invisible(span: Span) -> Diagnostic:
 
 
 def shortened(text: str, most: int = 40) -> str:
-    """Return a text that fits into a message."""
+    """Return a text, shortened to fit into a message."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -1,4 +1,4 @@
-"""What to say about a word that stands where the grammar has no place for it."""
+"""Messages for words that the grammar does not allow at their place."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ class Mistakes:
         self._frame_is_wrong = False
 
     def at(self, index: int, state: State) -> Diagnostic | None:
-        """Explain why the token at an index cannot follow those before it.
+        """Explain why the token at an index cannot follow the tokens before it.
 
-        `state` is that of the automaton: its keys are what could have followed. None is returned
-        where an earlier mistake is likely to be the reason.
+        `state` is that of the automaton; its keys are the tokens that could follow. Returns: None
+        if an earlier mistake is the likely reason.
         """
         if self._tokens[0].kind == "DEF" and (found := self._in_definition(index, state)):
             follows = self._frame_is_wrong and found.code == "syntax"
@@ -58,7 +58,7 @@ class Mistakes:
     # Words after something complete
 
     def _follows(self, index: int) -> Diagnostic:
-        """Answer a word after something that takes no operands."""
+        """Report a word after something that takes no operands."""
         token, before = self._tokens[index], self._tokens[index - 1]
         if self._inside_call(index):
             return Diagnostic(
@@ -78,7 +78,7 @@ class Mistakes:
         return self._takes_none(index, label="nothing may follow on its line")
 
     def _deeper(self, index: int) -> Diagnostic:
-        """Answer deeper lines below a line that takes none."""
+        """Report deeper lines below a line that takes none."""
         last = self._tokens[index - 2]  # the word before NEWLINE
         first = next(t for t in self._tokens[index:] if t.kind not in _LAYOUT)
         complete, help_ = self._complete(index - 2)
@@ -97,7 +97,7 @@ class Mistakes:
         )
 
     def _called(self, index: int) -> Diagnostic:
-        """Answer a parenthesis that opens directly behind something that cannot be called."""
+        """Report a parenthesis directly behind something that cannot be called."""
         complete, help_ = self._complete(index - 1)
         before = self._tokens[index - 1]
         if before.kind == "PARAMETER":
@@ -123,7 +123,7 @@ class Mistakes:
         )
 
     def _complete(self, index: int) -> tuple[str, str]:
-        """Describe the complete expression that ends at an index, and say how to continue it."""
+        """Describe the complete expression that ends at an index, and how to continue it."""
         token = self._tokens[index]
         if token.kind != "CLOSE":
             shown = self._shown(token)
@@ -250,7 +250,7 @@ class Mistakes:
         )
 
     def _in_definition(self, index: int, state: State) -> Diagnostic | None:
-        """Explain a mistake in the frame of a definition: entries, then one body."""
+        """Explain a mistake in a definition: entries, then one body."""
         name = self._tokens[1]
         if index == len(self._tokens) or self._tokens[index].kind == "_DEDENT":
             return Diagnostic(
@@ -279,10 +279,10 @@ class Mistakes:
             )
         return None
 
-    # Looking around
+    # Reading the tokens around the mistake
 
     def _inside(self, index: int) -> int | None:
-        """Index of the innermost parenthesis that is open before an index, on its line."""
+        """Return the index of the innermost parenthesis open before an index, on its line."""
         depth = 0
         for at in range(index - 1, -1, -1):
             kind = self._tokens[at].kind
@@ -317,7 +317,7 @@ class Mistakes:
 
 
 def hole_outside_template(span: Span) -> Diagnostic:
-    """Answer `?name` in a text that is no template."""
+    """Report `?name` in a text that is not a template."""
     return Diagnostic(
         "template-hole",
         f"`{shortened(span.text)}` is a hole, and this text is not a template",
@@ -328,7 +328,7 @@ def hole_outside_template(span: Span) -> Diagnostic:
 
 
 def more_than_one(span: Span) -> Diagnostic:
-    """Answer a second item where one expression is wanted."""
+    """Report a second item where one expression is expected."""
     return Diagnostic(
         "syntax",
         "a second expression begins here, where only one is wanted",
@@ -338,7 +338,7 @@ def more_than_one(span: Span) -> Diagnostic:
 
 
 def too_many(span: Span, most: int) -> Diagnostic:
-    """Answer a text that seems not to be AZee at all."""
+    """Report a text that seems not to be AZee."""
     return Diagnostic(
         "size-limit",
         f"this text has more than {most:,} mistakes; the rest of it is not read",
@@ -347,5 +347,5 @@ def too_many(span: Span, most: int) -> Diagnostic:
 
 
 def nothing_here(span: Span) -> Diagnostic:
-    """Answer an empty expression."""
+    """Report an empty expression."""
     return Diagnostic("syntax", "there is no expression in this text", span)

@@ -1,13 +1,11 @@
-"""The known names that a misspelt one may have meant."""
+"""Finds the known names that a misspelt name may mean."""
 
 from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
 
-_LONGEST = (
-    64  # longer names get no suggestion: nobody misspells those, and the search stays bounded
-)
+_LONGEST = 64  # longer names get no suggestion, so that the search stays bounded
 
 
 def folded(name: str) -> str:
@@ -17,10 +15,11 @@ def folded(name: str) -> str:
 
 
 def nearest(name: str, known: Iterable[str], limit: int = 3) -> tuple[str, ...]:
-    """Return up to `limit` names of `known`, the likeliest first; none where none is near.
+    """Return up to `limit` names of `known`, the likeliest first; none if none is near.
 
-    Near means at most a third of the letters mistyped (a swap of neighbours counts once), or one
-    name being the beginning of the other. Differences of case, accent and hyphen count least.
+    Near means that at most a third of the letters are mistyped (a swap of neighbours counts once),
+    or that one name is the beginning of the other. Differences of case, accent and hyphen count
+    least.
     """
     if not name or len(name) > _LONGEST:
         return ()
@@ -40,7 +39,7 @@ def nearest(name: str, known: Iterable[str], limit: int = 3) -> tuple[str, ...]:
 
 
 def _cost(a: str, b: str) -> float | None:
-    """Mistakes between two folded names, or None where they are too many."""
+    """Return the number of mistakes between two folded names, or None if there are too many."""
     if a == b:
         return 0.0
     allowed = max(len(a), len(b)) // 3 if min(len(a), len(b)) > 1 else 0
@@ -55,7 +54,7 @@ def _cost(a: str, b: str) -> float | None:
 
 
 def _distance(a: str, b: str, allowed: int) -> int:
-    """Optimal string alignment distance: insert, delete, replace, swap neighbours.
+    """Return the optimal string alignment distance: insert, delete, replace, swap neighbours.
 
     Stops early, with `allowed + 1`, once no alignment can stay within `allowed`.
     """

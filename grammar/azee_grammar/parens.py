@@ -1,4 +1,4 @@
-"""Where parentheses that are still open at the end of a line will be closed, if anywhere."""
+"""Finds where parentheses that are open at the end of a line are closed, if anywhere."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ _ITEM = re.compile(r"(?:def|use)(?=\s|\Z)")
 
 
 class Closings:
-    """Tells whether parentheses that are open where a line begins are closed further down.
+    """Says whether parentheses that are open where a line begins are closed further down.
 
-    A line that begins with `def` or `use` stands in no parentheses, so none is closed beyond it.
-    Asking is quick: for each line the lowest balance of the text after it is worked out once.
+    A line that begins with `def` or `use` is never inside parentheses, so none is closed beyond it.
+    A query is fast: the lowest balance of the text after each line is computed once.
     """
 
     def __init__(self, text: str) -> None:
@@ -43,5 +43,5 @@ class Closings:
             self._drop[start] = before - low
 
     def closes(self, line_start: int, depth: int) -> bool:
-        """Whether at least `depth` parentheses are closed from a line on that were open before."""
+        """Whether at least `depth` parentheses open before a line are closed from it on."""
         return self._drop.get(line_start, 0) >= depth

@@ -1,4 +1,4 @@
-"""Texts into syntax trees. Any text gives a tree, diagnostics, or both; never another exception."""
+"""Parses texts. Any text gives a tree, diagnostics, or both; never another exception."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from azee_grammar.tables import State
 from azee_grammar.token import Token
 
 MOST_MISTAKES = 1000
-"""Reading a text stops there: what follows is unlikely to be AZee."""
+"""Parsing stops at this many mistakes: what follows is unlikely to be AZee."""
 
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """The tree of a text and all that is wrong with it, in the order of the text.
+    """The tree of a text and all its mistakes, in the order of the text.
 
-    An item with a mistake is not in the tree, except that a definition stays with its name and
-    without its body, so that the places that use it are not mistaken too.
+    An item with a mistake is not in the tree. A definition with a mistake stays with its name and
+    without its body, so that the places that use it are not reported too.
     """
 
     file: File
@@ -40,7 +40,7 @@ class Parsed:
 
 
 def parse(source: Source, *, template: bool = False) -> Parsed:
-    """Read a text. Holes (`?name`) are mistakes unless it is a template."""
+    """Parse a text. Holes (`?name`) are mistakes unless it is a template."""
     reader = LayoutReader(source)
     items: list[Item] = []
     diagnostics: list[Diagnostic] = []
@@ -61,7 +61,7 @@ def parse(source: Source, *, template: bool = False) -> Parsed:
 def parse_expression(
     source: Source, *, template: bool = False
 ) -> tuple[Expr | None, tuple[Diagnostic, ...]]:
-    """Read a text that is one expression, as the operand of `-e`; any margin will do."""
+    """Parse a text that is one expression, as the operand of `-e`, with any margin."""
     layouts = list(LayoutReader(source, indented=True).items())
     if not layouts:
         return None, (nothing_here(Span(source, 0, 0)),)
@@ -75,7 +75,7 @@ def parse_expression(
 def _read(
     source: Source, layout: Layout, start: str, *, template: bool
 ) -> tuple[Any, list[Diagnostic]]:
-    """Return what the tokens of one item mean, and everything that is wrong with it."""
+    """Return the node of one item, and all its mistakes."""
     tokens, diagnostics = layout.tokens, layout.diagnostics
     if not tokens:
         return None, diagnostics
@@ -98,7 +98,7 @@ def _read(
 
 
 def _unusable(source: Source, tokens: list[Token]) -> Definition | None:
-    """Return what is left of an item with mistakes: the name of a definition."""
+    """Return what remains of an item with mistakes: the name of a definition."""
     if tokens[0].kind != "DEF" or tokens[1].kind != "NAME":
         return None
     name = tokens[1]

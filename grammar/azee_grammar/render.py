@@ -19,13 +19,13 @@ from azee_grammar.excerpt import Excerpt, printable
 from azee_grammar.source import Span
 
 CALLS_SHOWN = 8
-"""Calls of a long rule call stack that are shown; those in the middle are counted."""
+"""Calls of a long rule call stack that are shown; those in the middle are only counted."""
 
 _RED, _YELLOW, _BLUE, _CYAN = "31", "33", "34", "36"
 
 
 def render(diagnostic: Diagnostic, *, colour: bool = False) -> str:
-    """Return a diagnostic as lines for a terminal, without a line end behind the last."""
+    """Return a diagnostic as lines for a terminal, without a line end after the last."""
     severe = diagnostic.severity is Severity.ERROR
     paint = _painter(colour)
     strong = _RED if severe else _YELLOW

@@ -1,4 +1,4 @@
-"""Which operands of an application share a line in canonical form."""
+"""Decides which operands of an application share a line in canonical layout."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ _PAIRED = frozenset({"azop", "let", "apply"})
 """Operators that take `'name value` pairs, as rules do; a last operand without name is a body."""
 
 _FRAMES = frozenset({"azop", "let", "sync"})
-"""Operators whose shape is easier to see in lines, however short they are."""
+"""Operators that always have several lines, however short they are, because that is clearer."""
 
 _SYNC_RULES = {"start/end": 2, "start/dur": 2, "end/dur": 2, "start": 1, "end": 1, "with": 1}
-"""Operands of each sync rule. Layout follows them; what they mean is settled elsewhere."""
+"""Operands of each sync rule, for the layout; azee.lang gives their meaning."""
 
 
 def is_word(node: Expr | Named) -> bool:
@@ -22,10 +22,10 @@ def is_word(node: Expr | Named) -> bool:
 
 
 def fits_behind_symbol(node: Expr | Named) -> bool:
-    """Whether a node may stand behind a symbol on its line, in parentheses if it has operands.
+    """Whether a node may follow a symbol on its line, in parentheses if it has operands.
 
-    An operator applied to words may. A rule applied to operands gets lines: what it says of what
-    is easier to see there.
+    An operator applied to words may. A rule applied to operands gets lines, which are easier to
+    read.
     """
     if is_word(node):
         return True
@@ -36,7 +36,7 @@ def fits_behind_symbol(node: Expr | Named) -> bool:
 
 
 def fits_line(node: Expr | Named) -> bool:
-    """Whether the shape of a node allows one line for all of it, if that is not too wide."""
+    """Whether the structure of a node allows one line for all of it, if that is not too wide."""
     if is_word(node):
         return True
     assert isinstance(node, Application)
@@ -51,8 +51,8 @@ def fits_line(node: Expr | Named) -> bool:
 def beside_head(node: Application) -> int:
     """Count the operands that stay on the line of their head while the others get lines.
 
-    Those are all but the last, if they are words without symbols and the last has operands of its
-    own; and of a `let`, the name with its value.
+    These are all except the last, if they are words without symbols and the last has operands of
+    its own. Of a `let`, they are the name with its value.
     """
     operands = node.operands
     if _operator(node) == "let":
@@ -84,7 +84,7 @@ def _operator(node: Application) -> str | None:
 
 
 def _pairs(operands: Sequence[Expr]) -> Iterator[Sequence[Expr]]:
-    """Join a symbol with the operand behind it; leave others alone."""
+    """Join a symbol with the operand after it; return other operands unchanged."""
     at = 0
     while at < len(operands):
         size = 2 if isinstance(operands[at], Symbol) else 1
@@ -93,7 +93,7 @@ def _pairs(operands: Sequence[Expr]) -> Iterator[Sequence[Expr]]:
 
 
 def _runs(operands: Sequence[Expr]) -> Iterator[Sequence[Expr]]:
-    """Join a symbol with the words behind it, or with the one application behind it."""
+    """Join a symbol with the words after it, or with the one application after it."""
     at = 0
     while at < len(operands):
         end = at + 1

@@ -12,7 +12,7 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 
 @dataclass(frozen=True)
 class Source:
-    """A text as it was written, with the name it is reported under.
+    """A text as it was written, with the name under which it is reported.
 
     `text` keeps its line ends; a leading byte-order mark is not part of it.
     """
@@ -56,7 +56,7 @@ class Span:
 
     @property
     def text(self) -> str:
-        """The characters it covers."""
+        """The characters of the range."""
         return self.source.text[self.start : self.end]
 
     @property

@@ -1,8 +1,8 @@
 """The syntax tree: a closed union of frozen nodes, each with its span.
 
-Equality of nodes ignores spans, so that trees of differently laid-out texts compare equal.
-The tree knows no arities and no names: whether a word is an operator, how many operands it
-takes and which `'argument value` pairs belong together is settled by azee.lang.
+Equality of nodes ignores spans, so that trees of differently laid-out texts are equal. The tree has
+no knowledge of names and numbers of operands. azee.lang decides whether a word is an operator, how
+many operands it takes and which `'argument value` pairs belong together.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class SideWord(_Node):
 
 
 class RuleForm(Enum):
-    """How a rule is named: `:name` applies it, `.name` hands it over, `:#name` is a posture."""
+    """How a rule is written: `:name` applies it, `.name` passes it, `:#name` is a posture."""
 
     APPLY = ":"
     REFER = "."
@@ -118,9 +118,9 @@ class Named(_Node):
 class Application(_Node):
     """A head and its operands, in either notation.
 
-    `called` tells `palm(s)` from the prefix form. Prefix operands stay a flat sequence, symbols
-    included (`'topic :a 'info :b` is four operands); `Named` occurs only where `called`.
-    A head alone (`:arbre`, `!head`, `.nb-5`) is an application without operands.
+    `called` distinguishes `palm(s)` from the prefix form. Prefix operands stay a flat sequence,
+    symbols included (`'topic :a 'info :b` is four operands); `Named` occurs only where `called`. A
+    head alone (`:arbre`, `!head`, `.nb-5`) is an application without operands.
     """
 
     head: Head
@@ -142,7 +142,7 @@ class Use(_Node):
 class Definition(_Node):
     """`def name`, its `'meaning "…"`-like entries and its body.
 
-    `body` is None where a mistake left none; the file then carries a diagnostic.
+    `body` is None if the body has a mistake; the file then has a diagnostic.
     """
 
     name: str

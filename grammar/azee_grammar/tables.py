@@ -1,9 +1,9 @@
-"""The LALR(1) tables of azee.lark, ready when the package is imported.
+"""The LALR(1) tables of azee.lark, available when the package is imported.
 
-To load Lark and to let it work the tables out takes a tenth of a second, a fifth of what a whole
-`azee check` may take. So its result is kept in data/azee.tables.json, under the digest of the
-grammar it came from. After a change of the grammar Lark is asked again, and
-`python -m azee_grammar.tables` renews the file.
+Loading Lark and computing the tables takes a tenth of a second, a fifth of the time that a whole
+`azee check` may take. So the tables are stored in data/azee.tables.json, with the digest of their
+grammar. After a change of the grammar, Lark computes them again, and `python -m
+azee_grammar.tables` writes the file again.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ TABLES = _HERE / "data" / "azee.tables.json"
 STARTS = ("item", "standalone")
 
 State: TypeAlias = dict[str, int]
-"""What to do on each symbol: n >= 0 shifts (or goes) to state n, n < 0 reduces by rule -n - 1."""
+"""Actions per symbol: n >= 0 shifts (or goes) to state n, n < 0 reduces by rule -n - 1."""
 
 
 @dataclass(frozen=True, slots=True)
 class Production:
-    """A rule of the grammar as a parser needs it.
+    """A rule of the grammar for the parser.
 
-    origin: symbol it reduces to. size: symbols it takes. action: builder method, or None where
-    the parts are handed on. keep: per symbol, whether it leaves a part. expand: a single part
-    stands for itself. No production is empty.
+    origin: symbol it reduces to. size: symbols it takes. action: builder method, or None if the
+        parts are passed on. keep: per symbol, whether it leaves a part. expand: a single part
+        stands for itself. No production is empty.
     """
 
     origin: str
@@ -40,7 +40,7 @@ class Production:
     keep: tuple[bool, ...]
     expand: bool
     unit: bool = field(init=False)
-    """Whether a value passes through unchanged, unless it is parts that must be joined."""
+    """Whether a value passes unchanged, unless it is parts that must be joined."""
 
     def __post_init__(self) -> None:
         unit = self.size == 1 and self.keep[0] and (self.action is None or self.expand)
@@ -75,12 +75,12 @@ def tables() -> Tables:
 
 
 def digest(grammar: str) -> str:
-    """Return what tells one state of the grammar from another."""
+    """Return the digest that distinguishes one state of the grammar from another."""
     return f"{crc32(grammar.encode()):08x}"
 
 
 def generate(grammar: str) -> dict[str, Any]:
-    """Let Lark work out the tables; any conflict is an error.
+    """Let Lark compute the tables; any conflict is an error.
 
     States are numbered in the order in which they are reached, so that the same grammar always
     gives the same file.
@@ -90,7 +90,7 @@ def generate(grammar: str) -> dict[str, Any]:
     from lark.parsers.lalr_analysis import Shift
 
     class Elsewhere(Lexer):
-        """Words are read by words.py and layout.py."""
+        """Placeholder for a lexer: words.py and layout.py make the tokens."""
 
         def __init__(self, conf: Any) -> None:
             pass
@@ -99,7 +99,7 @@ def generate(grammar: str) -> dict[str, Any]:
             raise NotImplementedError
 
     parser = Lark(grammar, parser="lalr", lexer=Elsewhere, start=list(STARTS), strict=True)
-    table = parser.parser.parser._parse_table  # Lark has no public way to them
+    table = parser.parser.parser._parse_table  # Lark has no public access to them
 
     number: dict[int, int] = {}
     queue: deque[int] = deque()
@@ -133,7 +133,7 @@ def generate(grammar: str) -> dict[str, Any]:
 
 
 def serialized(data: dict[str, Any]) -> str:
-    """Return tables as the committed file holds them: a line for each state and production."""
+    """Return tables in the form of the committed file: a line for each state and production."""
     lines = [f"  {json.dumps(key)}: {_pretty(value)}" for key, value in data.items()]
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
@@ -152,7 +152,7 @@ def _production(rule: Any) -> list[Any]:
 
 
 def main() -> None:
-    """Renew the committed file."""
+    """Write the committed file again."""
     text = serialized(generate(GRAMMAR.read_text(encoding="utf-8")))
     TABLES.write_text(text, encoding="utf-8", newline="\n")
 

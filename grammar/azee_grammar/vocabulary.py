@@ -1,9 +1,9 @@
 """AZee's names: 44 bones, 292 body sites and the morphs, known without any rig.
 
-Tables bear the full names (`index_L_2`, `I_TIP_R`, `AU12_L`). A text writes the unsided name and
-gives side and phalanx as operands (`!index s 2`); `bone_names`, `site` and `morph` say which of
-them a name takes. Where the published descriptions contradict themselves, docs/language/
-vocabulary.md says what was corrected. The tables are read when they are first asked for.
+Tables have the full names (`index_L_2`, `I_TIP_R`, `AU12_L`). A text writes the unsided name and
+gives side and phalanx as operands (`!index s 2`); `bone_names`, `site` and `morph` say which
+operands a name takes. docs/language/vocabulary.md lists corrections of published descriptions that
+contradict each other. The tables are read on first use.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ V = TypeVar("V")
 
 @dataclass(frozen=True, slots=True)
 class SiteEntry:
-    """A site: the bone that carries it and where on the body it lies."""
+    """A site: the bone that carries it and its place on the body."""
 
     bone: str
     description: str
@@ -59,10 +59,10 @@ class MorphEntry:
 
 @dataclass(frozen=True, slots=True)
 class Name:
-    """An unsided name, as a text writes it, and the operands that make it a full one.
+    """An unsided name, as a text writes it, and the operands that complete it.
 
     `takes_side`: sided variants exist; then `side_optional` says whether the bare name exists too.
-    `phalanges`: the numbers that may follow the side, none for most.
+        `phalanges`: the numbers that may follow the side, none for most.
     """
 
     name: str
@@ -77,7 +77,7 @@ class Name:
 
 
 class _Table(Mapping[str, V]):
-    """A mapping that reads its data when it is first used."""
+    """A mapping that reads its data on first use."""
 
     def __init__(self, read: Callable[[], dict[str, V]]) -> None:
         self._read = cache(read)
@@ -115,36 +115,36 @@ MORPHS: Mapping[str, MorphEntry] = _Table(
 WITHOUT_MORPH: Mapping[str, str] = _Table(
     lambda: {n: text for n, kind, text in _rows("morphs.csv") if kind == "none"}
 )
-"""Action units that no morph plays, with what to use instead."""
+"""Action units without a morph, with what to use instead."""
 
 
 @cache
 def bone_names() -> Mapping[str, Name]:
-    """Unsided bone names, as they stand after `!`."""
+    """Unsided bone names, as they are written after `!`."""
     return _unsided(BONES)
 
 
 @cache
 def site_names() -> Mapping[str, Name]:
-    """Unsided site names, as they stand after `@`."""
+    """Unsided site names, as they are written after `@`."""
     return _unsided(SITES)
 
 
 @cache
 def morph_names() -> Mapping[str, Name]:
-    """Morph names without their sides, as they stand in `morph 'name side weight`."""
+    """Morph names without their sides, as in `morph 'name side weight`."""
     return _unsided(MORPHS)
 
 
 def site(name: str) -> Name | None:
-    """Return the unsided site name as it stands after `@`, if AZee has it."""
+    """Return the unsided site name, as it is written after `@`, if AZee has it."""
     return site_names().get(name)
 
 
 def morph(name: str) -> Name | None:
     """Return the morph name, with or without its side suffix, if AZee has it.
 
-    A name with its suffix (`index_bend_L`) stands as it is and takes no side.
+    A name with its suffix (`index_bend_L`) takes no side operand.
     """
     found = morph_names().get(name)
     if found is None and name in MORPHS:
@@ -175,7 +175,7 @@ def _unsided(full: Iterable[str]) -> dict[str, Name]:
 
 
 def nearest_site(name: str) -> tuple[str, ...]:
-    """Unsided sites that `name` may have meant: by spelling, or by a word of the description.
+    """Return unsided sites that `name` may mean: by spelling, or by a word of the description.
 
     So `CHIN_TIP` finds `CH`, whose description is "Chin".
     """

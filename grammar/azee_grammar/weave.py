@@ -1,4 +1,4 @@
-"""Comments and blank lines back among the lines of a text that has been laid out anew."""
+"""Puts comments and blank lines back among the lines of a text that was laid out again."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from azee_grammar.source import Source, Span
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line without its indentation, and the range of the text that it lays out."""
+    """A line without its indentation, and the range of the text that it shows."""
 
     depth: int
     text: str
@@ -22,8 +22,8 @@ class Line:
 def weave(lines: Sequence[Line], source: Source, comments: Sequence[Span], indent: str) -> str:
     """Return the text of the lines with its comments.
 
-    A comment at the end of a line stays there; any other goes before the line it stood above. One
-    blank line stays where there were some.
+    A comment at the end of a line stays there. Any other comment stays above the line that it
+    preceded. One blank line stays where there were some.
     """
     out: list[str] = []
     waiting = list(reversed(comments))
@@ -55,7 +55,7 @@ def _same_line(source: Source, one: int, other: int) -> bool:
 
 
 def _after_blank(source: Source, offset: int) -> bool:
-    """Whether a blank line stands above an offset that begins its line."""
+    """Whether there is a blank line above an offset that begins its line."""
     line, column = source.position(offset)
     if source.line(line)[: column - 1].strip("\ufeff \t") or line == 1:
         return False

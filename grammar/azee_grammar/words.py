@@ -12,10 +12,10 @@ from azee_grammar.source import Source, Span
 from azee_grammar.token import BAD, Token
 
 MOST_WORDS = 150_000
-"""In one text, comments and punctuation included. A translated news item has some two hundred."""
+"""The most words of a text, comments and punctuation included. A news item has about 200."""
 
 MOST_DIGITS = 17
-"""As many as tell any two float64 apart."""
+"""The most digits of a number: enough to distinguish any two float64."""
 
 _WORD = re.compile(r"""[^\s(),="]+""")
 _SPACE = re.compile(r"\s+")
@@ -36,10 +36,10 @@ _KEYWORDS = {"use": "USE", "def": "DEF"}
 
 
 class WordReader:
-    """Reads lines of a source into tokens, and says what is wrong with a word.
+    """Splits lines of a source into tokens, and reports mistakes in words.
 
-    A misspelt word that can only mean one thing still gives its token, so that one mistake does
-    not hide the next; any other gives a BAD token.
+    A misspelt word that can only mean one thing still gives its token, so that one mistake does not
+    hide the next. Any other misspelt word gives a BAD token.
     """
 
     def __init__(
@@ -53,7 +53,7 @@ class WordReader:
         self._report = report
         self._said = 0
         self.comments = comments
-        self.left = MOST_WORDS  # words that may still come; below zero, the rest is not read
+        self.left = MOST_WORDS  # words that may still come; below zero, reading stops
         self._foreign = False  # whether a bracket of another language was reported on this line
 
     def read(self, start: int, end: int) -> list[Token]:
@@ -95,7 +95,7 @@ class WordReader:
         return tokens
 
     def comment(self, start: int, end: int) -> None:
-        """Keep the place of a comment."""
+        """Store the place of a comment."""
         self._count(start)
         self.comments.append((start, end))
 
@@ -162,7 +162,7 @@ class WordReader:
         return token
 
     def _rule(self, start: int, end: int, word_end: int) -> Token:
-        """Read the name of a rule: after one space it goes on while a word begins with a letter."""
+        """Read the name of a rule; after one space it continues if a word begins with a letter."""
         text = self.text
         posture = text.startswith(":#", start)
         kind = "POSTURE" if posture else _SIGILS[text[start]]
@@ -219,7 +219,7 @@ class WordReader:
         return Token("TEXT", start, close, self.text[start + 1 : close - 1])
 
     def _visible(self, name: str, start: int) -> str:
-        """Return the name at `start` in NFC; a character that nobody sees is reported."""
+        """Return the name at `start` in NFC; report an invisible character."""
         if found := misspelt.INVISIBLE.search(name):
             at = start + found.start()
             self._say(misspelt.invisible(self._span(at, at + 1)))

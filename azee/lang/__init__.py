@@ -1,1 +1,1 @@
-"""The AZee language at work: values, evaluation and rule libraries."""
+"""The AZee language: values, evaluation and rule libraries."""

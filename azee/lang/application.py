@@ -52,7 +52,7 @@ class RuleReference(Code):
         return Kind.OPERATOR
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
-        """Evaluate what is given, leave the rest open."""
+        """Evaluate the given arguments; leave the others open."""
         level = machine.enter(1 + len(self.arguments), self.span)
         values = gathered(tuple(self.arguments.values()), machine, names)
         machine.depth = level
@@ -62,7 +62,7 @@ class RuleReference(Code):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Apply(Code):
-    """`apply OPERATOR 'argument value`: the operator is known only when this is evaluated."""
+    """`apply OPERATOR 'argument value`: the operator is known only at evaluation."""
 
     span: Span
     operator: Code
@@ -92,7 +92,7 @@ def applied(
     span: Span,
     origin: Origin,
 ) -> Value:
-    """Apply an operator to arguments that are matched with its open parameters."""
+    """Apply an operator to arguments, matched with its open parameters."""
     parameters = [(p.name, p.default is None) for p in operator.open_parameters]
     arguments, problems = bound(operator.title, parameters, given, span)
     if problems:

@@ -1,4 +1,4 @@
-"""What an application says, apart from how it is written: which rule, which operand is which."""
+"""The meaning of an application without its notation: which rule, which operand is which."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from azee_grammar.syntax import Application, Expr, OperatorName, Parameter, Rule
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """The head of an application, equal where it means the same, and its operands by name.
+    """The head of an application, equal if it means the same, and its operands by name.
 
-    Operands of what is no known rule are named by their position, from `0`.
+    If the head is not a known rule, operands are named by their position, from `0`.
     """
 
     head: tuple[object, ...]
@@ -26,16 +26,16 @@ class Shape:
 
     @classmethod
     def plain(cls, expr: Application, problems: Sequence[Diagnostic] = ()) -> Shape:
-        """Return the shape of which nothing is known but the syntax."""
+        """Return the shape by syntax alone, without knowledge of rules."""
         operands = {str(i): operand for i, operand in enumerate(flattened(expr))}
         return cls((type(expr.head), expr.head), operands, tuple(problems))
 
     @classmethod
     def of(cls, expr: Application, scope: Scope) -> Shape:
-        """Return the shape where the names of rules mean what they do in `scope`.
+        """Return the shape, with the names of rules looked up in `scope`.
 
-        `:name`, `:#name` and a called `name()` apply a rule alike; `.name` hands it over. What is
-        wrong with the arguments of a known rule is told by `problems`.
+        `:name`, `:#name` and a called `name()` all apply a rule; `.name` passes it. `problems`
+        reports wrong arguments of a known rule.
         """
         name, form = _rule_name(expr)
         if name is None:
@@ -61,7 +61,7 @@ class Shape:
 
 
 def _rule_name(expr: Application) -> tuple[str | None, RuleForm]:
-    """Return the name of the rule that an application applies or hands over, if it does."""
+    """Return the name of the rule that an application applies or passes, if it does."""
     head = expr.head
     if isinstance(head, RuleName):
         return head.name, head.form
@@ -81,10 +81,10 @@ def _found(name: str, scope: Scope) -> Rule | None:
 
 
 def _destination(rule: Rule, *, handed_over: bool) -> tuple[Rule, Mapping[str, str]]:
-    """Return the rule that stands behind one that forwards, and what its arguments are there.
+    """Return the rule that a forwarding rule applies in the end, and the names of its arguments.
 
-    Where a rule is handed over, whoever applies it knows its arguments by name and order: it
-    stands for another only if these are the same.
+    If a rule is passed as a value, whoever applies it uses names and order of the arguments. So it
+    equals another rule only if these are the same.
     """
     names = {name: name for name, _ in rule.parameters}
     seen = {rule}
@@ -100,9 +100,10 @@ def _destination(rule: Rule, *, handed_over: bool) -> tuple[Rule, Mapping[str, s
 
 
 def _forward(rule: Rule) -> tuple[Rule, Mapping[str, str]] | None:
-    """Return the rule that a rule only gives other names to, and the new names of its arguments.
+    """Return the rule that a rule only applies under other names, and the names of its arguments.
 
-    Its body applies another rule to its own parameters, each once, with the same defaults.
+    The body of such a rule applies another rule to its own parameters, each once, with the same
+    defaults.
     """
     body = rule.definition.body
     if is_azop(body):

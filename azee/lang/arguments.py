@@ -1,4 +1,4 @@
-"""Which argument goes to which parameter, for rules and for operators handed over as values."""
+"""Matches arguments with parameters, for rules and for operators passed as values."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Given(Generic[T]):
-    """An argument as it was given; without a name it goes by its position."""
+    """An argument as given; without a name, its position counts."""
 
     value: T
     span: Span
@@ -29,7 +29,7 @@ def given_arguments(
 ) -> tuple[list[Given[Expr]], list[Diagnostic]]:
     """Read `'argument value` pairs, or the operands of a call.
 
-    `parameters` are the names that the rule is known to take, to guess what a slip was.
+    `parameters` are the known names of the rule's parameters, for suggestions in messages.
     """
     return _in_call(operands) if called else _in_pairs(operands, title, parameters)
 
@@ -98,9 +98,9 @@ def bound(
     *,
     partial: bool = False,
 ) -> tuple[dict[str, T], list[Diagnostic]]:
-    """Match arguments with parameters, each of which says whether it must be given.
+    """Match arguments with parameters; each parameter says whether it is mandatory.
 
-    `partial` leaves mandatory ones open, for a rule that is handed over. The problems are
+    `partial` leaves mandatory ones open, for a rule that is passed as a value. The problems are
     `too-many-arguments`, `unknown-argument`, `duplicate-argument` and `missing-argument`.
     """
     names = [name for name, _ in parameters]
@@ -131,7 +131,7 @@ def bound(
 
 
 def missing_argument(title: str, missing: Sequence[str], span: Span) -> Diagnostic:
-    """Return the diagnostic of an application that leaves out what it must give."""
+    """Return the diagnostic of an application that lacks a mandatory argument."""
     names = " and ".join(f"`'{name}`" for name in missing)
     many = "s" if len(missing) > 1 else ""
     return Diagnostic("missing-argument", f"{title} lacks its argument{many} {names}", span)

@@ -1,4 +1,4 @@
-"""What can be said of a whole score once the signer's dominant hand is known."""
+"""Checks of a whole score once the signer's dominant hand is known."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SpanOf = Callable[[Origin], Span | None]
 
 
 def audit(score: Score, dominant: Side, span_of: SpanOf, whole: Span) -> Iterator[Diagnostic]:
-    """Yield `orient-conflict`, `transpath-ends` and holds without anything to hold.
+    """Yield `orient-conflict`, `transpath-ends` and holds that have nothing to keep.
 
     `span_of` finds the place of a constraint in the text; `whole` is the utterance.
     """
@@ -48,7 +48,7 @@ def _constraints(leaf: Leaf) -> tuple[Constraint, ...]:
 def _transpath_ends(
     found: list[Leaf], dominant: Side, where: Callable[[Constraint], Span]
 ) -> Iterator[Diagnostic]:
-    """Look for the blocks that a controlled movement leads from and to."""
+    """Find the blocks at both ends of a controlled movement."""
     placed: dict[str, list[Interval]] = {}
     moved: list[tuple[Transpath, Interval]] = []
     for leaf in found:

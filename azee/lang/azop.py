@@ -1,4 +1,4 @@
-"""The shape of an `azop`: parameters, defaults, body."""
+"""The parts of an `azop`: parameters, defaults, body."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bones and sites of the body, named in a text."""
+"""Bones and sites of the body in a text."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class BodyPart(Code):
 
     @property
     def takes(self) -> str:
-        """The operands that it takes, in words."""
+        """The operands that it takes, as messages call them."""
         side = "a side" if self.entry.takes_side else "no side"
         if not self.entry.takes_phalanx:
             return side

@@ -1,7 +1,7 @@
-"""Resolved expressions: what a syntax tree means once its names are known.
+"""Resolved expressions: syntax trees whose names have been looked up.
 
-`resolve` makes them; they evaluate themselves. Each is evaluated with a machine, which counts what
-is spent, and the names that are visible where it stands.
+`resolve` makes them, and they evaluate themselves. Evaluation takes a machine, which counts the
+steps, and the names that are visible at the place of the expression.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Code(ABC):
 
     @property
     def kind(self) -> Kind | None:
-        """The kind of the value where it is known beforehand."""
+        """The kind of the value, if it is known before evaluation."""
         return None
 
     @abstractmethod
@@ -53,7 +53,7 @@ class Code(ABC):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Constant(Code):
-    """A literal, or an expression of literals that was evaluated once and for all."""
+    """A literal, or an expression of literals that was evaluated once."""
 
     span: Span
     value: Value
@@ -70,29 +70,29 @@ class Constant(Code):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Variable(Code):
-    """A parameter or a local name; that it is visible was settled when it was resolved."""
+    """A parameter or a local name; resolving has checked that it is visible."""
 
     span: Span
     name: str
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
-        """Look it up."""
+        """Look up its value."""
         return names[self.name]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Broken(Code):
-    """Stands where a mistake was reported."""
+    """Stands in the place of a reported mistake."""
 
     span: Span
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
-        """Give up without another word."""
+        """Stop evaluation without a second message."""
         raise Fault
 
 
 def gathered(codes: Sequence[Code], machine: Machine, names: Names) -> list[Value]:
-    """Evaluate all, and only then report what went wrong in any of them."""
+    """Evaluate all expressions, and only then report the faults of any of them."""
     values: list[Value] = []
     faults: list[Fault] = []
     depth = machine.depth
@@ -113,8 +113,8 @@ def gathered(codes: Sequence[Code], machine: Machine, names: Names) -> list[Valu
 class NativeCall(Code):
     """A native operator with its operands, each matched with its declaration.
 
-    Options follow the operands; `keywords` says which of `codes` they are and under which name
-    the function wants them, `settings` holds those that need no evaluation.
+    Options follow the operands; `keywords` says which of `codes` they are and under which name the
+    function takes them, `settings` holds those that need no evaluation.
     """
 
     span: Span
@@ -123,13 +123,13 @@ class NativeCall(Code):
     codes: tuple[Code, ...]
     declarations: tuple[Operand, ...]
     roles: tuple[str, ...]
-    """What messages call each operand."""
+    """How messages call each operand."""
     rest_at: int | None
-    """The number of the first operand that belongs to the rest, if there is one."""
+    """The number of the first of the repeated operands, if there are any."""
     keywords: Mapping[int, str]
     settings: Mapping[str, object]
     build: Build | None
-    """Makes a value of what the function returns; None where that is the value already."""
+    """Makes a value from the function's result; None if the result already is the value."""
 
     @property
     def kind(self) -> Kind | None:
@@ -137,7 +137,7 @@ class NativeCall(Code):
         return self.native.result
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
-        """Evaluate the operands, match them with what is declared, apply the function."""
+        """Evaluate the operands, match them with the declaration, apply the function."""
         level = machine.enter(1 + len(self.codes), self.span)
         values: list[Value] = []
         contents: list[object] = []
@@ -191,7 +191,7 @@ class NativeCall(Code):
 
 
 def _faults(codes: Sequence[Code], machine: Machine, names: Names) -> Iterator[Fault]:
-    """Evaluate expressions only for what is wrong with them."""
+    """Evaluate expressions only to find their faults."""
     try:
         gathered(codes, machine, names)
     except Exhausted:
@@ -237,4 +237,4 @@ BUILDS: Mapping[Kind, Build] = {
     Kind.CONSTRAINTS: _compound(ConstraintsValue),
     Kind.SCORE: _compound(ScoreValue),
 }
-"""How a value of each kind is made: a compound one is as large as its parts and one more."""
+"""How a value of each kind is made; the size of a compound value is that of its parts plus one."""

@@ -1,4 +1,4 @@
-"""Orientations that cannot stand in one set."""
+"""Orientations that exclude each other in one set."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ def orient_conflict(
 ) -> tuple[str, int] | None:
     """Find a second `'dir` or a second `'nrm` of one bone (Nunnari et al. 2018, section 4.2).
 
-    Without a dominant hand `s` and `R` are taken for different sides.
+    Without a dominant hand, `s` and `R` count as different sides.
 
-    Returns: what is wrong, and the number of the constraint that is one too many.
+    Returns: the mistake, and the number of the second constraint.
     """
     seen: set[tuple[BoneAxis, str, Side | None, int | None]] = set()
     for i, constraint in enumerate(constraints):

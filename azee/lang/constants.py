@@ -1,4 +1,4 @@
-"""Names that every text sees: directions, places around the signer, sides."""
+"""Names that are visible in every text: directions, places around the signer, sides."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ class Let(Code):
         return self.body.kind
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
-        """Evaluate the body, which sees the name."""
+        """Evaluate the body, in which the name is visible."""
         level = machine.enter(2, self.span)
         value = self.value.evaluate(machine, names)
         result = self.body.evaluate(machine, {**names, self.name: value})
@@ -46,11 +46,11 @@ class If(Code):
 
     @property
     def kind(self) -> Kind | None:
-        """The kind of both branches where they have one in common."""
+        """The kind of both branches, if it is the same."""
         return self.then.kind if self.then.kind is self.otherwise.kind else None
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
-        """Evaluate the branch that the condition picks."""
+        """Evaluate the branch that the condition selects."""
         level = machine.enter(2, self.span)
         branch = self.then if _truth(self.condition, "if", machine, names) else self.otherwise
         result = branch.evaluate(machine, names)
@@ -60,13 +60,13 @@ class If(Code):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Junction(Code):
-    """`and`, `or`: evaluated from the left until the answer is known."""
+    """`and`, `or`: evaluated from the left until the result is known."""
 
     span: Span
     name: str
     codes: tuple[Code, ...]
     stop: bool
-    """The answer that settles it: false for `and`, true for `or`."""
+    """The value that decides the result: false for `and`, true for `or`."""
 
     @property
     def kind(self) -> Kind:
@@ -93,7 +93,7 @@ def _truth(code: Code, operator: str, machine: Machine, names: Names) -> bool:
 
 
 def not_a_boolean(kind: Kind, operator: str, span: Span) -> Fault:
-    """Return the fault of a condition that is no boolean."""
+    """Return the fault of a condition that is not a boolean."""
     return fault(
         "wrong-type",
         f"`{operator}` wants a boolean, not {kind.value}",
@@ -105,7 +105,7 @@ def not_a_boolean(kind: Kind, operator: str, span: Span) -> Fault:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Closure(Code):
-    """`azop` in the middle of an expression: an operator that sees the names around it."""
+    """`azop` inside an expression: an operator that can use the names around it."""
 
     span: Span
     parameters: tuple[FormalParameter, ...]
@@ -124,7 +124,7 @@ class Closure(Code):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Guarded(Code):
-    """An expression whose value must be of one kind, such as what `:#name` stands for."""
+    """An expression whose value must be of one kind, such as the body of `:#name`."""
 
     span: Span
     code: Code
@@ -137,7 +137,7 @@ class Guarded(Code):
         return self.wanted
 
     def evaluate(self, machine: Machine, names: Names) -> Value:
-        """Evaluate it and look at the kind."""
+        """Evaluate it and check the kind."""
         level = machine.enter(1, self.span)
         value = self.code.evaluate(machine, names)
         machine.depth = level

@@ -1,4 +1,4 @@
-"""The exceptions that carry diagnostics while a text is evaluated."""
+"""The exceptions that carry diagnostics during evaluation."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from azee_grammar.source import Span
 
 
 class Fault(AZeeError):  # noqa: N818 - the text's, not ours
-    """Evaluation cannot go on here. Siblings are still evaluated, so that their faults show too.
+    """Evaluation stops here. Siblings are still evaluated, so that their faults are found too.
 
-    Without diagnostics it only says that what it stands for was reported before.
+    Without diagnostics, it means that the mistake was reported before.
     """
 
     def through(self, rule: str, span: Span) -> Fault:
@@ -23,7 +23,7 @@ class Fault(AZeeError):  # noqa: N818 - the text's, not ours
 
 
 class Exhausted(Fault):
-    """A limit is passed: evaluation of the whole utterance ends at once."""
+    """A limit is exceeded: evaluation of the whole utterance ends at once."""
 
 
 def fault(
@@ -42,7 +42,7 @@ def fault(
 def together(faults: Sequence[Fault]) -> Fault:
     """Return one fault with the diagnostics of all, each once.
 
-    A rule that is applied twice is wrong twice at the same place; told every time, that would
+    A rule that is applied twice has the same mistake twice. Reported each time, its messages would
     double with every rule around it.
     """
     distinct: dict[tuple[str, str, Span | None], Diagnostic] = {}
@@ -54,7 +54,7 @@ def together(faults: Sequence[Fault]) -> Fault:
 
 
 def did_you_mean(name: str, known: Iterable[str], sigil: str = "") -> str | None:
-    """Return a help line with the nearest known names, or none where none is near."""
+    """Return a help line with the nearest known names, or none if none is near."""
     found = [f"`{sigil}{candidate}`" for candidate in nearest(name, dict.fromkeys(known))]
     if not found:
         return None

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from azee.lang.resolve import Resolver
 
 Resolve: TypeAlias = "Callable[[Resolver, Application, tuple[Expr, ...], Visible], Steps[Code]]"
-"""From an application, its operands and the names it sees to the steps of its code."""
+"""Makes the steps of an application's code from its operands and the names visible to it."""
 
 
 def exactly(

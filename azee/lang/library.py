@@ -1,4 +1,4 @@
-"""Rule libraries: where they are found, and what their files define."""
+"""Rule libraries: where they are, and which rules their files define."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from azee_grammar.syntax import Definition, File, Use, Utterance
 
 CORE = "core"
 DEFAULT = "lsf"
-"""What is in scope beside the core where a text uses nothing."""
+"""The library in scope beside the core if a text uses none."""
 
 
 @dataclass(eq=False)
 class Library:
-    """A namespace with everything that is wrong with its files."""
+    """A namespace with the mistakes in its files."""
 
     namespace: Namespace
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
 
 def own_name(file: File) -> str | None:
-    """Return the name of the rule that a file of a single `azop` defines: its own."""
+    """Return the name of the rule in a file that has only an `azop`: the name of the file."""
     if len(file.items) != 1 or not isinstance(item := file.items[0], Utterance):
         return None
     if not is_azop(item.expr):
@@ -54,7 +54,7 @@ def definitions(file: File) -> Iterator[Definition]:
 def define(
     namespace: Namespace, found: Iterable[Definition], scope: Scope, resolving: Resolving
 ) -> Iterator[Diagnostic]:
-    """Add rules to a namespace; yield `duplicate-definition` for names that are taken."""
+    """Add rules to a namespace; yield `duplicate-definition` for names that exist."""
     for definition in found:
         other = namespace.rules.get(definition.name)
         if other is None:
@@ -72,8 +72,9 @@ def define(
 class Librarian:
     """Finds and reads libraries, each once.
 
-    A library is a folder of texts, or one text, beside the text that uses it, then in each of
-    the given folders, then among those that ship. Names are plain: no text reads elsewhere.
+    A library is a folder of texts, or one text. It is looked up beside the text that uses it, then
+    in each of the given folders, then among the libraries that ship. Names are plain, so no text
+    reads elsewhere.
     """
 
     def __init__(
@@ -91,15 +92,15 @@ class Librarian:
 
     @property
     def libraries(self) -> Iterable[Library]:
-        """All that were read."""
+        """All libraries that were read."""
         return self._libraries.values()
 
     def scope(
         self, namespace: Namespace, file: File, folder: Path | None
     ) -> tuple[Scope, list[Diagnostic]]:
-        """Return what a text sees: its own rules, the libraries it uses, the core.
+        """Return the scope of a text: its own rules, the libraries it uses, the core.
 
-        Without any `use` that is the default library.
+        Without any `use`, the default library is in scope.
         """
         scope = Scope(namespace, self._core)
         problems: list[Diagnostic] = []
@@ -166,7 +167,7 @@ class Librarian:
 
 
 def names_in(folder: Path) -> list[str]:
-    """Names of the libraries that a folder offers to `use`, sorted.
+    """Return the names of the libraries in a folder, sorted, as `use` takes them.
 
     Raises: OSError: the folder cannot be read.
     """
@@ -184,7 +185,7 @@ def _texts(folder: Path) -> list[Path]:
 
 
 def _same_but_for_case(files: Sequence[Path]) -> Iterator[Diagnostic]:
-    """Yield a diagnostic for files that some file systems cannot tell apart."""
+    """Yield a diagnostic for files that some file systems cannot distinguish."""
     seen: dict[str, Path] = {}
     for path in files:
         name = unicodedata.normalize("NFC", path.stem).casefold()
@@ -197,12 +198,12 @@ def _same_but_for_case(files: Sequence[Path]) -> Iterator[Diagnostic]:
 # Shipped libraries ----------------------------------------------------------------------------
 
 SHIPPED_RESOLVING = Resolving()
-"""What the shipped rules share; they are resolved once in the life of a process."""
+"""The scope that the shipped rules share; they are resolved once per process."""
 
 
 @cache
 def shipped_library(name: str) -> Library:
-    """Return a library that ships. Its rules see it, the libraries it uses, and the core."""
+    """Return a library that ships. In scope of its rules are itself, its libraries and the core."""
     library = Library(Namespace(name))
     core = library.namespace if name == CORE else shipped_library(CORE).namespace
     for path in _texts(shipped() / name):

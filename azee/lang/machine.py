@@ -1,4 +1,4 @@
-"""The state of one evaluation: what has been spent, and how deep it stands."""
+"""The state of one evaluation: the steps taken and the depth."""
 
 from __future__ import annotations
 
@@ -16,16 +16,21 @@ from azee_solver.constraint import Origin
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What one evaluation may spend, so that no text can hang or fill the memory."""
+    """Limits of one evaluation, so that no text can run forever or fill the memory."""
 
     depth: int = 200
-    """Expressions inside one another, bodies of called rules included; also of values."""
+    """Expressions inside one another, bodies of called rules included; also parts of values."""
     steps: int = 1_000_000
-    """Expressions evaluated and elements visited; applying a rule, leaving one with a mistake and
-    laying out a block of a score count as `HEAVY` steps each, since that is what they take."""
+    """Expressions evaluated and elements visited.
+
+    Applying a rule, leaving one with a mistake and laying out a block of a score count as `HEAVY`
+    steps each, by the time they take.
+    """
     size: int = 500_000
-    """Parts of one value, counted as a tree: what is used twice counts twice. A thousand signs of
-    two hands, half an hour of signing, have some 250,000."""
+    """Parts of one value, counted as a tree: a part that is used twice counts twice.
+
+    A thousand signs of two hands, half an hour of signing, have about 250,000.
+    """
 
 
 DEFAULT_LIMITS = Limits()
@@ -42,10 +47,10 @@ class Machine:
         self.steps = 0
         self.depth = 0
         self._results: dict[Procedure, Value] = {}
-        """Of rules that were applied to no arguments: they always give the same."""
+        """Values of rules that were applied without arguments: these are always the same."""
 
     def enter(self, steps: int, span: Span) -> int:
-        """Spend steps and go one level deeper; return the level to come back to."""
+        """Count steps and go one level deeper; return the level to come back to."""
         self.steps += steps
         depth = self.depth
         if self.steps > self.limits.steps:
@@ -58,7 +63,7 @@ class Machine:
         return depth
 
     def spend(self, steps: int, span: Span) -> None:
-        """Spend steps on the parts of a value that an operator visits one by one."""
+        """Count steps for the parts of a value that an operator visits one by one."""
         self.steps += steps
         if self.steps > self.limits.steps:
             raise self._out_of_steps(span)
@@ -84,11 +89,11 @@ class Machine:
     ) -> Value:
         """Apply a rule or an `azop` to arguments by name.
 
-        Defaults are evaluated now and see the parameters before them; that nothing mandatory is
-        missing was settled by `arguments.bound`. `span` and `origin` say where the application
-        stands.
+        Defaults are evaluated now and can use the parameters before them. `arguments.bound` has
+        checked that no mandatory argument is missing. `span` and `origin` are the place of the
+        application.
 
-        Raises: Fault: whatever goes wrong inside, with this call added to the rule call stack.
+        Raises: Fault: any fault inside, with this call added to the rule call stack.
         """
         procedure = operator.procedure
         plain = not (procedure.names or operator.bound or given)
@@ -114,7 +119,7 @@ class Machine:
 
 
 def _came_from(procedure: Procedure, value: Value, origin: Origin) -> Value:
-    """Note on a score that it is the result of a rule."""
+    """Mark a score as the result of a rule."""
     if procedure.rule is None or not isinstance(value, ScoreValue):
         return value
     score = came_from(value.content, Call(procedure.rule, origin))

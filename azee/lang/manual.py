@@ -71,7 +71,7 @@ def _operands(operands: Sequence[Operand]) -> Iterator[str]:
 
 
 def _dependent(native: Native) -> str:
-    """Say what an operator gives where that depends on its operands."""
+    """Describe the result of an operator if it depends on the operands."""
     if native.name in ("def", "use"):
         return ""
     if native.name in ("mirror", "with-dominant"):

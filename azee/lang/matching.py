@@ -1,4 +1,4 @@
-"""Operands of a native operator, matched with its declaration."""
+"""Matches the operands of a native operator with its declaration."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class _Match:
     settings: dict[str, object] = field(default_factory=dict)
     problems: list[Diagnostic] = field(default_factory=list)
     filled: int = 0
-    """How many of the declared operands have at least one expression."""
+    """The number of declared operands that have at least one expression."""
 
 
 def native_call(
@@ -38,10 +38,10 @@ def native_call(
     operands: Sequence[Expr],
     codes: Sequence[Code],
 ) -> Code:
-    """Return the call of an operator, evaluated already where all its operands are literals.
+    """Return the call of an operator, already evaluated if all its operands are literals.
 
     Reports too-many-arguments, missing-argument, missing-value, unknown-keyword,
-    duplicate-argument, wrong-type, and names that a vocabulary does not know.
+    duplicate-argument, wrong-type, and names that the vocabulary does not have.
     """
     match = _matched(native, operands, codes)
     for code, declaration, what in zip(match.codes, match.declarations, match.roles, strict=True):
@@ -123,7 +123,7 @@ def _option(
     given: set[str],
     match: _Match,
 ) -> int:
-    """Take an option and its value; return how many operands that were."""
+    """Take an option and its value; return how many operands these are."""
     span = operands[i].span
     if option.word in given:
         message = f"`'{option.word}` is given twice"
@@ -160,7 +160,7 @@ def _surplus(native: Native, expr: Expr) -> Diagnostic:
 
 
 def _misfit(native: Native, code: Code, declaration: Operand, what: str) -> Sequence[Diagnostic]:
-    """Return what can be said against an operand before it is evaluated."""
+    """Return the mistakes of an operand that are known before evaluation."""
     try:
         if isinstance(code, Constant):
             declaration.content(code.value, native.name, what, code.span)

@@ -1,4 +1,4 @@
-"""Native operators, declared once: evaluation, messages and the manual all read this."""
+"""Native operators, declared once for evaluation, messages and the manual."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Group(Enum):
-    """Under which heading the manual lists an operator."""
+    """The heading under which the manual lists an operator."""
 
     LANGUAGE = "Language"
     LISTS = "Lists and numbers"
@@ -30,7 +30,7 @@ class Group(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Operand:
-    """What stands in one place after an operator.
+    """An operand of an operator.
 
     `kinds` are those that are accepted, any where empty. `words` close a symbol to a few words.
     With `rest` it takes all that remain, at least `least`. Where it is `optional` the function has
@@ -46,22 +46,22 @@ class Operand:
     optional: bool = False
     raw: bool = False
     vocabulary: Callable[[str, Span], Fault | None] | None = None
-    """Judges a literal symbol before anything is evaluated."""
+    """Checks a literal symbol before evaluation."""
 
     def accepts(self, kind: Kind | None) -> bool:
-        """Whether a value of that kind can stand here; None is not known yet."""
+        """Whether a value of that kind is accepted; None means that the kind is not known yet."""
         if kind is None or not self.kinds or kind in self.kinds:
             return True
         return kind is Kind.SITE and Kind.POINT in self.kinds
 
     def takes_as_is(self, value: Value) -> bool:
-        """Whether the value can stand here without a conversion or a closer look."""
+        """Whether the value is accepted without a conversion or a further check."""
         return not self.words and (not self.kinds or value.kind in self.kinds)
 
     def content(self, value: Value, operator: str, role: str, span: Span) -> object:
-        """Return what the operator's function is given for a value.
+        """Return the argument of the operator's function for a value.
 
-        `role` is what messages call the operand, such as `first operand`.
+        `role` is how messages call the operand, such as `first operand`.
 
         Raises: Fault: `wrong-type` or `unknown-keyword`.
         """
@@ -98,7 +98,7 @@ _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", 
 
 
 def role(number: int) -> str:
-    """Return what messages call the operand of that number, from 0."""
+    """Return how messages call the operand of that number, from 0."""
     return f"{_ORDINALS[number] if number < len(_ORDINALS) else f'{number + 1}th'} operand"
 
 
@@ -124,11 +124,11 @@ class Option:
 class Native:
     """A native operator.
 
-    `function(at, …)` is given an `Occurrence`, then the contents of its operands; with
-    `uses_machine` the machine comes second. It returns the content of a value of kind `result`,
-    or with `whole` the value itself. A `result` of None depends on the operands. Special forms,
-    whose operands are not all evaluated in order, have `resolve` and `pattern` instead of a
-    function and operands.
+    `function(at, …)` takes an `Occurrence`, then the contents of its operands; with `uses_machine`
+    the machine comes second. It returns the content of a value of kind `result`, or with `whole`
+    the value itself. If `result` is None, the kind depends on the operands. Special forms do not
+    evaluate all operands in order; they have `resolve` and `pattern` instead of a function and
+    operands.
     """
 
     name: str
@@ -148,7 +148,7 @@ class Native:
 
     @property
     def signature(self) -> str:
-        """How it is written: `place SITE POINT ['dist NUMBER] ['contact]`."""
+        """The notation of the operator: `place SITE POINT ['dist NUMBER] ['contact]`."""
         if self.pattern:
             return self.pattern
         parts = [self.name, *(_pattern(o) for o in self.operands)]
@@ -167,16 +167,16 @@ def _pattern(operand: Operand) -> str:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Occurrence:
-    """An operator where it stands in a text: what its function needs to point at a mistake."""
+    """An operator at its place in a text, for mistakes that its function reports."""
 
     name: str
     span: Span
     origin: Origin
     spans: tuple[tuple[str, Span], ...] = field(default=())
-    """Of the operands, each with the name it is declared under, in order of writing."""
+    """Spans of the operands, each with its declared name, in order of writing."""
 
     def span_of(self, operand: str, number: int = 0) -> Span:
-        """Return the place of an operand, of the whole application where it is left out."""
+        """Return the place of an operand, or of the whole application if it is left out."""
         found = [span for name, span in self.spans if name == operand]
         return found[number] if number < len(found) else self.span
 

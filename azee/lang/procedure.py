@@ -1,4 +1,4 @@
-"""Rules and `azop`s, ready to be applied."""
+"""Rules and `azop`s that can be applied."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FormalParameter:
-    """A parameter and what it holds when it is left out; without a default it is mandatory."""
+    """A parameter and its default; without a default it is mandatory."""
 
     name: str
     default: Code | None
@@ -21,9 +21,9 @@ class FormalParameter:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Procedure:
-    """A body with parameters, and the names that were visible where it was written.
+    """A body with parameters, and the names that were visible at its definition.
 
-    `rule` is the name of the production rule, None for an `azop` in the middle of an expression.
+    `rule` is the name of the production rule, None for an `azop` inside an expression.
     """
 
     rule: str | None
@@ -34,14 +34,14 @@ class Procedure:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Applicable:
-    """A procedure as a value, with the arguments that are already given."""
+    """A procedure as a value, with the arguments that were already given."""
 
     procedure: Procedure
     bound: Mapping[str, Value]
 
     @property
     def title(self) -> str:
-        """What messages call it."""
+        """How messages call it."""
         return f"`:{self.procedure.rule}`" if self.procedure.rule else "this `azop`"
 
     @property

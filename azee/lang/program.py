@@ -37,7 +37,7 @@ from azee_solver.geometry import Side
 BETWEEN_UTTERANCES_S = Fraction(1)
 NO_NAMES: Mapping[str, Value] = {}
 _MOST_CALLS = 12
-"""Of a longer rule call stack, the innermost and the outermost half are shown."""
+"""How many calls of a long rule call stack are kept: the innermost and the outermost half."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,11 +60,11 @@ class Program:
     resolving: Resolving
     limits: Limits
     found: tuple[Diagnostic, ...]
-    """What was wrong with the text and its libraries before anything was resolved."""
+    """Mistakes in the text and its libraries that were found before resolving."""
 
     @property
     def utterances(self) -> tuple[UtteranceScore, ...]:
-        """All utterances of the text, evaluated. Raises: AZeeError: all that is wrong with it."""
+        """All utterances of the text, evaluated. Raises: AZeeError: all its mistakes."""
         self._require_sound(self.check())
         judged = (self._judged(item) for item in self._items())
         return tuple(score for score, _ in judged if score is not None)
@@ -72,7 +72,7 @@ class Program:
     def score(self, utterance: int | None = None, dominant: Side = Side.RIGHT) -> Score:
         """Return the score of one utterance, by its number from 1, or of all in sequence.
 
-        Raises: AZeeError: all that is wrong with the text, or `no-utterance`.
+        Raises: AZeeError: all mistakes in the text, or `no-utterance`.
         """
         self._require_sound(self.check(dominant))
         scores = [u.score for u in self.utterances]
@@ -87,11 +87,11 @@ class Program:
     def check(
         self, dominant: Side = Side.RIGHT, *, sound: Container[Item] = ()
     ) -> tuple[Diagnostic, ...]:
-        """Return all that is wrong with the text, its rules that nobody calls included.
+        """Return all mistakes in the text, also in rules that nobody calls.
 
-        Args: dominant: the hand for which orientations that exclude each other are looked for.
-            sound: definitions and utterances that are known to be right and are passed over:
-            they were, and no rule that they reach has changed since.
+        Args: dominant: the hand with which orientations that exclude each other are searched.
+            sound: definitions and utterances that are skipped. They had no mistake, and no rule
+            that they depend on has changed since.
         """
         for rule in self._own_rules():
             if rule.definition not in sound:
@@ -101,16 +101,16 @@ class Program:
         return _tidy((*self.found, *found, *self._rule_diagnostics()), self.source)
 
     def problems(self, item: Utterance, dominant: Side = Side.RIGHT) -> tuple[Diagnostic, ...]:
-        """Return what is wrong with one utterance of the text, in the order of discovery."""
+        """Return the mistakes in one utterance of the text, in the order of discovery."""
         utterance, found = self._judged(item)
         if utterance is None:
             return found
         return (*found, *audit(utterance.score, dominant, self._span_of, utterance.span))
 
     def evaluate(self, text: str, name: str = "<expression>") -> UtteranceScore:
-        """Evaluate one expression, which sees the rules of the text, to a score.
+        """Evaluate one expression, with the rules of the text in scope, to a score.
 
-        Raises: AZeeError: all that is wrong with the expression, or with rules it reaches.
+        Raises: AZeeError: all mistakes in the expression, or in rules that it uses.
         """
         expr, value = self._expression(Source(name, text))
         if not isinstance(value, ScoreValue):
@@ -120,24 +120,24 @@ class Program:
         return UtteranceScore(_label(expr), value.content, expr.span)
 
     def value(self, text: str, name: str = "<expression>") -> Value:
-        """Evaluate one expression, which sees the rules of the text, to a value of any kind.
+        """Evaluate one expression, with the rules of the text in scope, to a value of any kind.
 
-        Raises: AZeeError: all that is wrong with the expression, or with rules it reaches.
+        Raises: AZeeError: all mistakes in the expression, or in rules that it uses.
         """
         return self._expression(Source(name, text))[1]
 
     def result(self, expr: Expr, names: Mapping[str, Value]) -> Value:
-        """Evaluate an expression that has been read, which may name the given values, `^name`.
+        """Evaluate a parsed expression, which may use the given values as `^name`.
 
-        Mistakes in rules that it does not reach do not matter.
+        Mistakes in rules that it does not use do not matter.
 
-        Raises: AZeeError: all that is wrong with it, or with the rules it reaches.
+        Raises: AZeeError: all mistakes in it, or in the rules that it uses.
         """
         found: list[Diagnostic] = []
         value = self._value(expr, found, names)
         if isinstance(value, ScoreValue):
             found += audit(value.content, Side.RIGHT, self._span_of, expr.span)
-        if value is None and not found:  # it came upon what is wrong with a rule
+        if value is None and not found:  # it found a mistake in a rule
             found += self._rule_diagnostics()
         self._require_sound(_tidy(found, expr.span.source))
         assert value is not None, "nothing was reported, so there is a value"
@@ -174,7 +174,7 @@ class Program:
             yield from namespace.rules.values()
 
     def _rule_diagnostics(self) -> Iterator[Diagnostic]:
-        """Yield what is wrong with rules, those that ship included if they were reached."""
+        """Yield the mistakes in rules, also in shipped rules if they were used."""
         for rule in self._own_rules():
             yield from rule.diagnostics
         for namespace in (self.scope.core, *self.scope.libraries):
@@ -192,7 +192,7 @@ class Program:
     def _value(
         self, expr: Expr, diagnostics: list[Diagnostic], names: Mapping[str, Value] = NO_NAMES
     ) -> Value | None:
-        """Resolve and evaluate; None where something is wrong, which is then reported."""
+        """Resolve and evaluate; None after a mistake, which is then reported."""
         resolver = self.resolving.resolver(self.scope, None, diagnostics)
         code = resolver.resolve(expr, frozenset(names))
         try:
@@ -227,12 +227,12 @@ def load(
     limits: Limits = DEFAULT_LIMITS,
     read: Callable[[Path], Source] = read_source,
 ) -> Program:
-    """Read a text and the libraries it uses; nothing is evaluated yet.
+    """Parse a text and the libraries it uses; nothing is evaluated yet.
 
-    What is wrong shows in `Program.check`.
+    `Program.check` returns the mistakes.
 
     Args: libraries: folders in which `use` looks, after the folder of the text.
-        read: reads the texts of libraries; an editor knows newer ones than the disk.
+        read: reads the texts of libraries; an editor has newer versions than the disk.
     """
     parsed = parse(source)
     resolving = Resolving(Machine(limits))
@@ -253,15 +253,15 @@ def load(
 def evaluate_expression(
     text: str, libraries: Sequence[Path] = (), name: str = "<expression>"
 ) -> UtteranceScore:
-    """Evaluate one expression that sees the core and the default library.
+    """Evaluate one expression with the core and the default library in scope.
 
-    Raises: AZeeError: all that is wrong with it.
+    Raises: AZeeError: all its mistakes.
     """
     return load(Source("<none>", ""), libraries).evaluate(text, name)
 
 
 def _label(expr: Expr) -> str:
-    """Return what an utterance is called in pictures and reports."""
+    """Return the name of an utterance for pictures and reports."""
     if isinstance(expr, Application):
         head = expr.head
         return f":{head.name}" if isinstance(head, RuleName) else head.name

@@ -1,8 +1,8 @@
-"""Other sides for what a score says: the mirror image, and another dominant hand.
+"""Changes the sides in a score: the mirror image, and another dominant hand.
 
-A mirror image is what one sees in a mirror whose plane stands between left and right: sides
-change, x changes its sign, and rotations their sense. With M the reflection,
-M(a × b) = −(Ma × Mb), and a rotation about `a` by φ becomes one about Ma by −φ.
+A mirror image is the reflection in a plane between left and right. Sides change, x changes its
+sign, and rotations change their sense. With M the reflection, M(a × b) = −(Ma × Mb), and a rotation
+about `a` by φ becomes one about Ma by −φ.
 """
 
 from __future__ import annotations
@@ -70,11 +70,11 @@ class Change(ABC):
 
     @abstractmethod
     def side(self, side: Side) -> Side:
-        """Return what becomes of a side."""
+        """Return the new side for a side."""
 
     @abstractmethod
     def place(self, place: SigningSpace) -> SigningSpace:
-        """Return what becomes of a named place."""
+        """Return the new place for a named place."""
 
     def score(self, score: Score) -> Score:
         """Return the score with every side changed; times stay."""
@@ -173,7 +173,7 @@ _SUFFIXED = re.compile(r"(.+)_([LR])", re.ASCII)
 
 
 def _other_morph(name: str) -> str:
-    """Return the morph of the other side, for names that say their side themselves."""
+    """Return the morph of the other side, for names that include their side."""
     found = _SUFFIXED.fullmatch(name)
     other = f"{found[1]}_{'R' if found[2] == 'L' else 'L'}" if found else name
     if other in vocabulary.MORPHS and not (other == name == "palm_l_closed"):
@@ -183,18 +183,18 @@ def _other_morph(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class WithDominant(Change):
-    """Strong means one given side. Places on the strong and on the weak side follow."""
+    """Strong means one given side; places on the strong and the weak side follow."""
 
     strong: Side
 
     def side(self, side: Side) -> Side:
-        """Return the side that strong and weak now mean; left and right stay."""
+        """Return the side that strong or weak now means; left and right stay."""
         if side is Side.STRONG:
             return self.strong
         return self.strong.opposite if side is Side.WEAK else side
 
     def place(self, place: SigningSpace) -> SigningSpace:
-        """Return the place that the strong or the weak side's place now is."""
+        """Return the place that the place of the strong or the weak side now is."""
         if place is SigningSpace.SSSP:
             return _PLACES[self.strong]
         return _PLACES[self.strong.opposite] if place is SigningSpace.WSSP else place

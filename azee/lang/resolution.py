@@ -1,7 +1,7 @@
-"""Resolving step by step: deep texts need no deep stack.
+"""Resolves step by step, so that deep texts need no deep stack.
 
-Code of an expression is made by a generator that yields the expressions inside it, each with the
-names it sees, and is sent their code. `run` keeps the generators that wait on a list.
+A generator makes the code of an expression. It yields the inner expressions, each with the names
+visible to it, and is sent their code. `run` keeps the waiting generators on a list.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from azee.lang.code import Code
 from azee_grammar.syntax import Expr
 
 Visible: TypeAlias = frozenset[str]
-"""Parameters and local names that an expression sees."""
+"""Parameters and local names that are visible to an expression."""
 
 Request: TypeAlias = tuple[Expr, Visible]
 
@@ -22,9 +22,9 @@ Steps: TypeAlias = Generator[Request, Code, T]
 
 
 def run(steps: Steps[T], start: Callable[[Expr, Visible], Steps[Code]]) -> T:
-    """Return what the steps return; `start` begins the steps of an expression they ask for."""
+    """Return the result of the steps; `start` begins the steps of an inner expression."""
     waiting: list[Steps[Any]] = [steps]
-    answer: Any = None  # what the last of them waits for; None begins it
+    answer: Any = None  # the result for which the last of them waits; None begins it
     while waiting:
         try:
             request = waiting[-1].send(answer)

@@ -1,8 +1,8 @@
-"""From syntax to code: which operator, rule, parameter, bone or site every name means.
+"""From syntax to code: looks up the operator, rule, parameter, bone or site of every name.
 
-All that can be known without evaluating is checked here, in rules that nobody calls too: names,
-arguments, the shape of special forms, kinds of operands. Expressions of literals are evaluated
-once, so their mistakes show here as well. Every mistake is reported, and what it spoils becomes
+All checks that need no evaluation are made here, also in rules that nobody calls: names, arguments,
+the structure of special forms, kinds of operands. Expressions of literals are evaluated once, so
+their mistakes are found here as well. Every mistake is reported, and its expression becomes
 `Broken`.
 """
 
@@ -55,17 +55,17 @@ Atom: TypeAlias = Number | Symbol | Parameter | SideWord | Text | Hole
 _ONLY_WHEN_REACHED = frozenset(
     {"division-by-zero", "number-range", "index-range", "negative-duration", "cannot-stretch"}
 )
-"""Mistakes of value, not of form: an expression that is never evaluated may contain them."""
+"""Mistakes in values, not in form: an expression that is never evaluated may contain them."""
 
 
 @dataclass(eq=False)
 class Resolving:
-    """What all resolvers of one program share."""
+    """Data that all resolvers of one program share."""
 
     machine: Machine = field(default_factory=Machine)
-    """Evaluates literals; its steps are a budget for all of them together."""
+    """Evaluates literals; its steps are a budget for all literals together."""
     spans: dict[Origin, Span] = field(default_factory=dict)
-    """Where the origins that constraints and calls bear stand in the text."""
+    """The places in the text of the origins that constraints and calls carry."""
 
     def resolver(self, scope: Scope, rule: str | None, diagnostics: list[Diagnostic]) -> Resolver:
         """Return a resolver for expressions of one rule, or of none."""
@@ -82,30 +82,30 @@ class Resolver:
     diagnostics: list[Diagnostic]
 
     def report(self, *diagnostics: Diagnostic) -> None:
-        """Note what is wrong."""
+        """Report a mistake."""
         self.diagnostics.extend(diagnostics)
 
     def broken(self, span: Span, *diagnostics: Diagnostic) -> Code:
-        """Note what is wrong and stand in for the expression."""
+        """Report a mistake and return the code that replaces the expression."""
         self.report(*diagnostics)
         return Broken(span)
 
     def origin(self, span: Span) -> Origin:
-        """Return where something is written, as constraints and calls bear it."""
+        """Return the origin of a place, as constraints and calls carry it."""
         origin = Origin(span.source.name, span.line, span.column, self.rule)
         self.shared.spans[origin] = span
         return origin
 
     def resolve(self, expr: Expr, visible: Visible = frozenset()) -> Code:
-        """Return the code of an expression that sees some local names, by default none."""
+        """Return the code of an expression, with some visible local names, by default none."""
         return run(self.all((expr,), visible), self._steps)[0]
 
     def procedure(self, expr: Application) -> tuple[tuple[FormalParameter, ...], Code]:
-        """Return the parameters and the body of an `azop` that sees no local names."""
+        """Return the parameters and the body of an `azop` without visible local names."""
         return run(self.azop(expr, frozenset()), self._steps)
 
     def all(self, exprs: Sequence[Expr], visible: Visible) -> Steps[tuple[Code, ...]]:
-        """Resolve several expressions that see the same names."""
+        """Resolve several expressions with the same visible names."""
         codes = []
         for expr in exprs:
             codes.append((yield expr, visible))
@@ -294,7 +294,7 @@ class Resolver:
     def azop(
         self, expr: Application, visible: Visible
     ) -> Steps[tuple[tuple[FormalParameter, ...], Code]]:
-        """Resolve the parameters and the body of an `azop`; defaults see those before them."""
+        """Resolve the parameters and the body of an `azop`; defaults can use those before them."""
         shape = shape_of(expr)
         self.report(*shape.problems)
         parameters: list[FormalParameter] = []
@@ -308,9 +308,9 @@ class Resolver:
         return tuple(parameters), body
 
     def folded(self, code: Code, parts: Sequence[Code]) -> Code:
-        """Evaluate an expression now, once and for all, if all its parts are literals.
+        """Evaluate an expression once, now, if all its parts are literals.
 
-        A mistake of form is reported; one of value waits until somebody needs the value.
+        A mistake in form is reported at once, a mistake in a value when the value is used.
         """
         if not all(isinstance(part, Constant) for part in parts):
             return code
@@ -337,7 +337,7 @@ def _written_apart(name: str, sigil: str, names: Container[str]) -> str | None:
 
 
 def _nameless(problems: Sequence[Diagnostic], mismatch: Diagnostic) -> bool:
-    """Whether a missing argument is the one that stands there without its name."""
+    """Whether a missing argument is the one that was given without its name."""
     return mismatch.code == "missing-argument" and any(
         p.code in ("expected-argument-name", "positional-after-named") for p in problems
     )

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(eq=False)
 class Rule:
-    """A definition and where it stands; resolved when it is first needed.
+    """A definition and its scope; resolved on first use.
 
     `library` is the name of the library it ships in, None for a rule of the text itself.
     """
@@ -33,12 +33,12 @@ class Rule:
 
     @property
     def name(self) -> str:
-        """The name it is applied by."""
+        """The name with which it is applied."""
         return self.definition.name
 
     @property
     def title(self) -> str:
-        """What messages call it."""
+        """How messages call it."""
         return f"`:{self.name}`"
 
     def entry(self, name: str) -> str | None:
@@ -50,7 +50,7 @@ class Rule:
 
     @cached_property
     def parameters(self) -> Sequence[tuple[str, bool]]:
-        """Names of the parameters in order, and whether each must be given."""
+        """Names of the parameters in order, and whether each is mandatory."""
         return [(p.name, p.default is None) for p in self.defaults]
 
     @cached_property
@@ -67,7 +67,7 @@ class Rule:
 
     @cached_property
     def procedure(self) -> Procedure:
-        """The resolved body. What is wrong with it is added to `diagnostics`."""
+        """The resolved body. Its mistakes are added to `diagnostics`."""
         body = self.definition.body
         if body is None:
             return Procedure(self.name, (), Broken(self.definition.span), {})
@@ -80,7 +80,7 @@ class Rule:
 
     @property
     def diagnostics(self) -> Sequence[Diagnostic]:
-        """What is wrong with the definition, as far as it has been resolved."""
+        """The mistakes in the definition, as far as it has been resolved."""
         return self._diagnostics
 
 

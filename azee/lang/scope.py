@@ -1,4 +1,4 @@
-"""Which rule a name means, from where it is used."""
+"""Finds the rule that a name means in a text."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Scope:
                 yield library
 
     def names(self) -> tuple[str, ...]:
-        """Return all names that mean something here."""
+        """Return all names that have a meaning here."""
         visible: Mapping[str, None] = dict.fromkeys(
             name for space in (self.own, *self._used(), self.core) for name in space.rules
         )

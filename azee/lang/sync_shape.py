@@ -1,4 +1,4 @@
-"""The shape of a `sync` in the text: blocks, rule words, and how many operands each takes."""
+"""The structure of a `sync` in the text: blocks, rule words, numbers of operands."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PATTERN = "sync 'NAME SCORE 'NAME SCORE 'RULE OPERAND … …"
 
 @dataclass(frozen=True, slots=True)
 class SyncRule:
-    """How a block is placed: the rule word and what its operands are."""
+    """How a block is placed: the rule word and its operands."""
 
     word: str
     operands: tuple[str, ...]
@@ -45,7 +45,7 @@ class ShapeReader:
         self._at = 0
         self.problems: list[Diagnostic] = []
         self.cut_short: Expr | None = None
-        """A score whose operands stand beside it instead of belonging to it."""
+        """A score whose operands stand beside it instead of inside it."""
 
     def blocks(self) -> list[tuple[Symbol, Expr, SyncRule | None, tuple[Expr, ...]]]:
         """Return name, score, rule and the rule's operands for each block; stop at a mistake."""

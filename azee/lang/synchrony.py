@@ -1,4 +1,4 @@
-"""`sync`: its shape in the text, and its evaluation."""
+"""`sync`: its structure in the text, and its evaluation."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class Sync(Code):
         return BUILDS[Kind.SCORE](group, scores, machine, self.span)
 
     def _fault(self, problem: LayoutError) -> Fault:
-        """Point at the block at fault, or at the ref or the hold that names what is not there."""
+        """Mark the block at fault, or the ref or the hold that names something missing."""
         if problem.part is None:
             return fault(problem.code, str(problem), self.span)
         block = self.blocks[problem.part]
@@ -91,7 +91,7 @@ class Sync(Code):
 
 
 def _which(name: str, known: Sequence[str]) -> str | None:
-    """Return the help for a block that is not there."""
+    """Return the help for a block that does not exist."""
     hint = did_you_mean(name, known, "'")
     if hint is not None or not known:
         return hint
@@ -102,7 +102,7 @@ def _which(name: str, known: Sequence[str]) -> str | None:
 
 
 def _ref(block: SyncBlock, bound: Bound) -> Code:
-    """Return the expression that says where a bound lies."""
+    """Return the expression that gives a bound."""
     assert block.rule is not None
     by_role = dict(zip(block.rule.operands, block.operands, strict=True))
     return by_role.get(bound.value) or by_role["block"]
@@ -178,7 +178,7 @@ def _length(rule: SyncRule, value: Value, span: Span) -> Fraction:
     return Fraction(repr(value.content))
 
 
-# The shape in the text ------------------------------------------------------------------------
+# The structure in the text --------------------------------------------------------------------
 
 
 def resolve_sync(
@@ -210,7 +210,7 @@ def resolve_sync(
 
 
 def _static_problems(blocks: Sequence[SyncBlock]) -> list[Diagnostic]:
-    """Return what can be said before the scores are known: names, kinds, literal refs."""
+    """Return the mistakes that are known before the scores: names, kinds, literal refs."""
     problems: list[Diagnostic] = []
     names: set[str] = set()
     for block in blocks:

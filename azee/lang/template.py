@@ -1,10 +1,10 @@
 """Templates: expressions with holes, and the expressions of a text that they match.
 
-Two expressions match where they are the same but for notation: `:f 'x :a`, `f(:a)` and
-`f('x = a())` are one. Rules are compared, not their names, so that a rule that only forwards to
-another under other names stands for that other. Everything else is compared as it is written,
-unevaluated: an argument that is left out does not match its default. A hole matches any one
-expression, and where it is used twice, the same one twice.
+Two expressions match if they differ only in notation: `:f 'x :a`, `f(:a)` and `f('x = a())` match
+each other. Rules are compared, not their names. So a rule that only applies another rule under
+other names matches that rule. Everything else is compared as written, without evaluation: a missing
+argument does not match its default. A hole matches any one expression, and if it occurs twice, the
+same expression twice.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ from azee_grammar.syntax import Application, Definition, Expr, Hole, Number, Utt
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """An expression that a template matches, and what its holes stand for there."""
+    """An expression that a template matches, and the expressions for its holes."""
 
     expr: Expr
     bindings: Mapping[str, Expr]
-    """By the holes' names, in the order in which the template has them."""
+    """Expressions by the holes' names, in the order of the template."""
 
 
 @dataclass(frozen=True)
@@ -60,10 +60,10 @@ class Template:
         return tuple(found)
 
     def problems(self, program: Program) -> tuple[Diagnostic, ...]:
-        """Return what is wrong with the template where it is read as a part of a program.
+        """Return the mistakes in the template if it is read as a part of a program.
 
-        The arguments of a rule that the program knows must be right; a rule that it does not
-        know is no mistake.
+        The arguments of a rule that the program knows must be right. A rule that it does not know
+        is not a mistake.
         """
         return tuple(
             problem
@@ -73,9 +73,9 @@ class Template:
         )
 
     def search(self, program: Program) -> Iterator[Match]:
-        """Yield every match in a text, in its utterances and rules, outer before inner.
+        """Yield every match in the utterances and rules of a text, outer matches first.
 
-        The names of rules mean what they mean in that text.
+        The names of rules have the meaning that they have in that text.
         """
         for item in program.file.items:
             expr = None
@@ -91,7 +91,7 @@ class Template:
                     yield match
 
     def match(self, expr: Expr, scope: Scope) -> Match | None:
-        """Match one expression as a whole; `scope` says which rules names mean."""
+        """Match one expression as a whole; `scope` gives the rules that names mean."""
         found: dict[str, Expr] = {}
         if not _matches(self.expr, expr, scope, found):
             return None
@@ -99,9 +99,9 @@ class Template:
 
 
 def _matches(template: Expr, expr: Expr, scope: Scope, found: dict[str, Expr]) -> bool:
-    """Compare two expressions, part by part; fills in what holes stand for.
+    """Compare two expressions, part by part, and store the expressions for holes.
 
-    Not recursive, so that no depth of nesting asks for a deep stack.
+    The function is not recursive, so that deep nesting needs no deep stack.
     """
     pairs = [(template, expr)]
     while pairs:
@@ -127,7 +127,7 @@ def _matches(template: Expr, expr: Expr, scope: Scope, found: dict[str, Expr]) -
 def _expressions(expr: Expr, scope: Scope) -> Iterator[Expr]:
     """Yield an expression and all its parts in the order of the text.
 
-    The names of a rule's arguments are no expressions.
+    The names of a rule's arguments are not expressions.
     """
     left = [expr]
     while left:

@@ -1,9 +1,9 @@
-"""What an AZee expression evaluates to: a closed union of frozen values.
+"""The values of AZee expressions: a closed union of frozen values.
 
-Each kind of value is a class with one field, `content`. Compound values carry the size and the
-depth of their tree, so that sharing cannot hide growth (`let 'x (list ^x ^x)` doubles the size
-each time) and nothing that walks a value can run away; evaluate.py compares them with the limits
-where a value is built.
+Each kind of value is a class with one field, `content`. Compound values store the size and the
+depth of their tree, so that sharing cannot hide growth (`let 'x (list ^x ^x)` doubles the size each
+time) and code that walks a value stays bounded. code.py compares them with the limits when a value
+is built.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class Kind(Enum):
-    """The kinds of value; `.value` is what messages and the manual call one of them."""
+    """The kinds of value; `.value` is the kind's name in messages and in the manual."""
 
     NUMBER = "a number"
     SYMBOL = "a symbol"
@@ -81,7 +81,7 @@ class SideValue:
 
 @dataclass(frozen=True, slots=True)
 class BooleanValue:
-    """What a comparison answers."""
+    """The result of a comparison."""
 
     content: bool
     kind: ClassVar[Kind] = Kind.BOOLEAN
@@ -101,7 +101,7 @@ class BoneValue:
 
 @dataclass(frozen=True, slots=True)
 class SiteValue:
-    """`@I_TIP s`; stands for a point wherever one is asked for."""
+    """`@I_TIP s`; stands for a point where a point is expected."""
 
     content: Site
     kind: ClassVar[Kind] = Kind.SITE
@@ -141,7 +141,7 @@ class PathValue:
 
 @dataclass(frozen=True, slots=True)
 class ListValue:
-    """Values in order; they need not be of one kind."""
+    """Values in order; they may be of different kinds."""
 
     content: tuple[Value, ...]
     size: int = 1
@@ -197,4 +197,4 @@ Value: TypeAlias = (
 )
 
 NONE = SymbolValue("none")
-"""What an optional operand holds when it is left out."""
+"""The value of an optional operand that is left out."""

@@ -1,6 +1,6 @@
 """AZee: from a formal description of a sign-language utterance to a signing body.
 
-`azee.compile(text_or_path)` goes the whole way; importing the package loads next to nothing. In a
+`azee.compile(text_or_path)` goes the whole way. Importing the package loads almost nothing. In a
 notebook, scores, clips, bodies and reports show themselves.
 """
 
@@ -14,7 +14,7 @@ __all__ = ["AZeeError", "Compilation", "compile", "load_ipython_extension"]
 
 
 def load_ipython_extension(ipython: Any) -> None:
-    """Let IPython show our objects; done by itself where the package is imported in a notebook."""
+    """Let IPython show our objects; automatic if the package is imported in a notebook."""
     from azee.notebook.registration import register
 
     register(ipython)

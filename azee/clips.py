@@ -1,4 +1,4 @@
-"""Clips in files: opened for a body, whatever the format, and written in one."""
+"""Opens clips in files of any format for a body, and writes them."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ if TYPE_CHECKING:
     from azee_rig.rig import Rig
 
 CLIP_SUFFIXES = (".npz", ".bvh")
-"""Formats that clips are read from."""
+"""Formats from which clips are read."""
 SHIPPED = "signer"
 OUR_UNIT = "cm"
-"""Of the lengths in BVH that azee wrote."""
+"""Unit of length of the BVH files that azee writes."""
 
 
 @dataclass(frozen=True, eq=False)
 class OpenClip:
-    """A clip, the body it moves, and what its user should know about how it was read."""
+    """A clip, its body, and notes for the user on how it was read."""
 
     clip: Clip
     rig: Rig
@@ -72,7 +72,7 @@ def _stored(path: Path, rig: Rig | None) -> OpenClip:
 
 
 def _shipped(path: Path, name: str) -> str:
-    """Return the name of a body if it ships: a clip's own folders are not looked into.
+    """Return the name of a body if it ships: folders that a clip names are not opened.
 
     Raises: AZeeError: not-a-clip.
     """

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def writing(path: str | Path) -> Iterator[None]:
-    """Turn what goes wrong while a file is written into a diagnostic.
+    """Turn errors in writing a file into a diagnostic.
 
     Raises: AZeeError: cannot-write.
     """
@@ -35,7 +35,7 @@ def writing(path: str | Path) -> Iterator[None]:
 
 
 def cannot_write(path: str | Path, error: OSError) -> Diagnostic:
-    """Tell in the user's words why a file cannot be written."""
+    """Say in the user's words why a file cannot be written."""
     folder = Path(path).parent
     if isinstance(error, FileNotFoundError):
         return Diagnostic("cannot-write", f"there is no folder `{folder}` for `{path}`", None)
@@ -88,7 +88,7 @@ def _film(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
 
 @contextmanager
 def filming() -> Iterator[None]:
-    """Tell in the user's words what films need.
+    """Turn errors in filming into a diagnostic.
 
     Raises: AZeeError: not-installed, clip-times.
     """
@@ -136,7 +136,7 @@ def _eaf(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
 
 
 def write_elan(score: Score, animation: Animation, path: Path, media: Path | None = None) -> None:
-    """Write a score as an ELAN file: on the time line of its films, `media` being one."""
+    """Write a score as an ELAN file, on the time line of its films; `media` may be one of them."""
     from azee.export.formats.eaf import write_eaf
     from azee.export.track_rows import track_rows
 
@@ -192,7 +192,7 @@ WRITERS: dict[str, Writer] = {
 }
 """Formats of an animation of a score; films are added below."""
 SUFFIXES = tuple(WRITERS)
-"""Suffixes of the formats that a compilation can be saved in, but for films."""
+"""Suffixes of the formats in which a compilation can be saved, without films."""
 FILM_SUFFIXES = (".mp4", ".webm")
 """Suffixes of films, which take longer and need the extra `film`."""
 RENDER_SUFFIXES = (".png", *FILM_SUFFIXES)

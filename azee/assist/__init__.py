@@ -1,1 +1,1 @@
-"""What a prompt or an editor wants to know of a text that is still being written."""
+"""What a prompt or an editor shows for a text that is still being written."""

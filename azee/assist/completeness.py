@@ -1,4 +1,4 @@
-"""Whether a text typed at a prompt is whole, or more of it must or may follow."""
+"""Decides whether a text typed at a prompt is complete, or whether more must or may follow."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _MISSING = frozenset({"missing-argument", "missing-value"})
 
 
 class Completeness(Enum):
-    """What a prompt does when a line is ended."""
+    """What a prompt does at the end of a line."""
 
     WHOLE = "whole"
-    """Nothing needs to follow: it is read."""
+    """Nothing can follow: the input is evaluated."""
     OPEN = "open"
-    """It may be whole, and deeper lines may follow: an empty line ends it."""
+    """It may be complete, but deeper lines may follow: an empty line ends it."""
     LACKING = "lacking"
     """Something is missing: a parenthesis, a body, operands."""
 
@@ -31,8 +31,8 @@ class Completeness(Enum):
 def completeness(text: str, knowledge: Knowledge) -> Completeness:
     """Judge a text by its last item.
 
-    A line alone is whole unless its head lacks operands that must be given; a mistake of another
-    kind is whole too, since more lines would not mend it.
+    A single line is complete unless its head lacks mandatory operands. A line with another kind of
+    mistake is complete too, since more lines would not correct it.
     """
     lines = read_lines(text).lines
     if not lines:
@@ -53,9 +53,9 @@ def unclosed(text: str) -> bool:
 
 
 def wants_deeper(line: str, knowledge: Knowledge) -> bool:
-    """Whether the operands of a line's head are to be expected on deeper lines.
+    """Whether the operands of a line's head are expected on deeper lines.
 
-    That is so where some are missing, and where an operator that takes any number has none yet.
+    This is so if some are missing, or if an operator that takes any number has none yet.
     """
     lines = read_lines(line.strip()).lines
     if not lines or _open(lines):
@@ -72,7 +72,7 @@ def wants_deeper(line: str, knowledge: Knowledge) -> bool:
 
 
 def _open(lines: tuple[Line, ...]) -> bool:
-    """Whether a parenthesis waits to be closed. `def` and `use` at the margin end the wait."""
+    """Whether a parenthesis is still open. `def` and `use` at the margin close all of them."""
     depth = 0
     for line in lines:
         if not line.prefix and line.tokens[0].kind in ("DEF", "USE"):
@@ -86,7 +86,7 @@ def _open(lines: tuple[Line, ...]) -> bool:
 
 
 def _last_item(lines: tuple[Line, ...]) -> tuple[Line, ...]:
-    """Return the lines from the last at the margin on that stands in no parentheses."""
+    """Return the lines from the last line at the margin on that is outside of parentheses."""
     depth = first = 0
     margin = lines[0].prefix
     for number, line in enumerate(lines):
@@ -97,7 +97,7 @@ def _last_item(lines: tuple[Line, ...]) -> tuple[Line, ...]:
 
 
 def _logical(lines: tuple[Line, ...]) -> int:
-    """Count lines; those that go on inside parentheses are one."""
+    """Count lines; lines that continue inside parentheses are one."""
     count = depth = 0
     for line in lines:
         count += depth == 0
@@ -111,7 +111,7 @@ def _balance(line: Line) -> int:
 
 
 def _lacks_operands(text: str, knowledge: Knowledge) -> bool:
-    """Whether the last utterance's own head is what something is missing of."""
+    """Whether it is the head of the last utterance itself that lacks something."""
     parsed = parse(Source("", text))
     items = parsed.file.items
     if parsed.diagnostics or not items or not isinstance(last := items[-1], Utterance):

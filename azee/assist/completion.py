@@ -1,4 +1,4 @@
-"""Names that could be meant by a word that is being written."""
+"""Completes a word that is being written."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from azee_grammar.nearest import folded
 
 @dataclass(frozen=True, slots=True)
 class Completion:
-    """A name to put in the place of `[start, end)`, with what it means."""
+    """A name that can replace `[start, end)`, with its meaning."""
 
     insert: str
     start: int
@@ -29,10 +29,11 @@ class Completion:
 
 
 def completions(text: str, offset: int, knowledge: Knowledge) -> tuple[Completion, ...]:
-    """Return what may be meant at an offset, the likeliest first.
+    """Return the completions at an offset, the likeliest first.
 
-    A word counts by its beginning, then by any part of it, without regard to case, accents and
-    hyphens. Without a sigil, operators and sides are offered, and rules by their bare names.
+    Names that begin with the written word come first, then names that contain it, without regard to
+    case, accents and hyphens. Without a sigil, operators, sides and rules by their bare names are
+    proposed.
     """
     where = place(text, offset)
     if where.silent:
@@ -90,7 +91,7 @@ def _candidates(where: Place, wanted: Expected, knowledge: Knowledge) -> Iterato
 
 
 def _values(where: Place, wanted: Expected, knowledge: Knowledge) -> Iterator[Description]:
-    """Yield whatever gives a value: what surely fits first, what may fit last."""
+    """Yield everything that gives a value: certain candidates first, possible ones last."""
     if where.frame.head is None and where.frame.parent is None:
         yield from map(description.operator, (NATIVES["def"], NATIVES["use"]))
     yield from visible_locals(where)
@@ -152,7 +153,7 @@ def visible_locals(where: Place) -> Iterator[Description]:
 
 
 def _is_body(let: Frame, inside: Frame | None, where: Place) -> bool:
-    """Whether a place stands in the body of a `let`, which alone sees the name."""
+    """Whether a place is in the body of a `let`, where its name is visible."""
     if inside is None:
         return where.number >= 2
     number = next((i for i, operand in enumerate(let.operands) if operand.frame is inside), 0)

@@ -1,4 +1,4 @@
-"""What a name means, for people: one description for hover, documentation and completion."""
+"""Describes the meaning of a name: the same for hover, documentation and completion."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ class What(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """A name as it is written, how it is used, what it means, and further facts with their labels.
+    """A name as it is written, its use, its meaning, and further facts with their labels.
 
-    `place` is where it is defined, for what a text defines.
+    `place` is where it is defined, if a text defines it.
     """
 
     what: What
@@ -57,7 +57,7 @@ class Description:
 
 
 def rule(found: Rule, knowledge: Knowledge) -> Description:
-    """Describe a rule: its arguments with their defaults, where it comes from, an example."""
+    """Describe a rule: its arguments with their defaults, its source, an example."""
     facts: list[tuple[str, str]] = []
     for parameter in found.defaults:
         default = "mandatory"
@@ -80,12 +80,12 @@ def rule(found: Rule, knowledge: Knowledge) -> Description:
 
 
 def rule_signature(found: Rule) -> str:
-    """Write a rule with its arguments; those that may be left out stand in brackets."""
+    """Return a rule with its arguments; optional ones are in brackets."""
     return " ".join((f":{found.name}", *(text for text in parameter_texts(found))))
 
 
 def parameter_texts(found: Rule) -> Iterator[str]:
-    """Yield a rule's arguments as a signature shows them."""
+    """Yield a rule's arguments in the notation of a signature."""
     for parameter in found.defaults:
         if parameter.default is None:
             yield f"'{parameter.name}"
@@ -164,7 +164,7 @@ def site(name: str) -> Description | None:
 
 
 def morph(name: str) -> Description | None:
-    """Describe `'name` behind `morph`."""
+    """Describe `'name` after `morph`."""
     found = vocabulary.morph(name)
     if found is None:
         return None
@@ -178,7 +178,7 @@ def morph(name: str) -> Description | None:
 
 
 def library(name: str) -> Description:
-    """Describe `'name` behind `use`."""
+    """Describe `'name` after `use`."""
     return Description(What.LIBRARY, f"'{name}", f"use '{name}", "a library of rules")
 
 
@@ -187,11 +187,11 @@ NAMED: Mapping[str, Callable[[str], Description | None]] = {
     "@": site,
     "^": constant,
 }
-"""Who describes a name by its sigil, where the sigil alone tells."""
+"""Functions that describe a name by its sigil, if the sigil alone decides."""
 
 
 def describe(name: str, knowledge: Knowledge) -> tuple[Description, ...]:
-    """Return what a name may mean: with its sigil one thing, bare all that bear it."""
+    """Return the possible meanings of a name: with its sigil one, without it all of that name."""
     sigil, rest = name[:1], name[1:]
     found: list[Description | None] = []
     if sigil in NAMED:
@@ -219,14 +219,14 @@ def _operands(found: vocabulary.Name) -> str:
 
 
 def _entry(table: Mapping[str, vocabulary.V], name: str) -> vocabulary.V | None:
-    """Return the entry of an unsided name, from its variants the first."""
+    """Return the entry of an unsided name: the first of its variants."""
     if name in table:
         return table[name]
     return next((entry for full, entry in table.items() if _SUFFIX.sub("", full) == name), None)
 
 
 def _of_either_side(found: vocabulary.Name, text: str) -> str:
-    """Return a text about one side's variant as one about both."""
+    """Rewrite the description of one side's variant as that of both sides."""
     if not found.takes_side or found.side_optional:
         return text
     plain = _SIDE_WORD.sub("", text)

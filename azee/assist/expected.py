@@ -1,4 +1,4 @@
-"""What may stand in a place: kinds of value, argument names, words, names of blocks."""
+"""What may stand at a place: kinds of value, argument names, words, names of blocks."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ _ENTRIES = {
 
 @dataclass(frozen=True, slots=True)
 class Expected:
-    """What fits: kinds of value (any where empty), and symbols that mean something here.
+    """What fits: kinds of value (any if empty), and symbols that have a meaning here.
 
-    `value` is False where only one of the symbols can stand.
+    `value` is False if only one of the symbols may stand here.
     """
 
     kinds: tuple[Kind, ...] = ()
@@ -37,14 +37,14 @@ class Expected:
     value: bool = True
 
     def accepts(self, kind: Kind | None) -> bool:
-        """Whether a value of that kind fits; None is not known."""
+        """Whether a value of that kind fits; None is an unknown kind."""
         if kind is None or not self.kinds or kind in self.kinds:
             return True
         return kind is Kind.SITE and Kind.POINT in self.kinds
 
 
 def expected(where: Place, knowledge: Knowledge) -> Expected:
-    """Return what can stand at a place, as far as its head tells."""
+    """Return what may stand at a place, as far as its head determines it."""
     head = where.frame.head
     if head is None:
         outer = where.frame.parent
@@ -70,7 +70,7 @@ def expected(where: Place, knowledge: Knowledge) -> Expected:
 
 
 def argument_number(where: Place, names: Sequence[str]) -> int | None:
-    """Return which of a rule's arguments is being written, from 0; None where that is open."""
+    """Return which of a rule's arguments is being written, from 0; None if that is open."""
     if where.pending is not None:
         return names.index(where.pending) if where.pending in names else None
     if where.frame.called:
@@ -175,7 +175,7 @@ def _operand(operand: Operand, where: Place) -> Expected:
 
 
 def _list(where: Place) -> Expected:
-    """Know the names of channels behind `'only`, and scores below `seq`."""
+    """Return names of channels after `'only`, and scores below `seq`."""
     frames = list(where.frame.outwards())
     around = next((frame for frame in frames[1:] if frame.head is not None), None)
     if around is None or around.head is None:
@@ -219,7 +219,7 @@ def _sync(where: Place) -> Expected:
 
 
 def _refs(where: Place, role: str) -> Iterator[Description]:
-    """Yield both bounds of every block; what starts mostly does so where another ends."""
+    """Yield both bounds of every block; for a start, ends come first, since they are likelier."""
     blocks = list(_blocks(where))
     for bound in ("end", "start") if role == "start" else ("start", "end"):
         for block in blocks:
@@ -227,7 +227,7 @@ def _refs(where: Place, role: str) -> Iterator[Description]:
 
 
 def _blocks(where: Place) -> Iterator[Description]:
-    """Yield the blocks of the `sync` around a place, but for the one being written."""
+    """Yield the blocks of the `sync` around a place, except the one being written."""
     for frame in where.frame.outwards():
         if frame.head is not None and frame.head.text == "sync":
             for name, start, end in blocks_of(frame):
@@ -237,7 +237,7 @@ def _blocks(where: Place) -> Iterator[Description]:
 
 
 def blocks_of(frame: Frame) -> Iterator[tuple[str, int, int]]:
-    """Yield the blocks of a `sync`: name, and from where to where the block is written."""
+    """Yield the blocks of a `sync`: the name, and where the block begins and ends."""
     operands = frame.operands
     at = 0
     while at < len(operands):

@@ -1,4 +1,4 @@
-"""Who takes which operands, read from words alone: a text being typed has no tree yet."""
+"""Assigns operands to heads by words alone, since a text being typed has no tree yet."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _TAKES = HEADS | {"DEF", "USE"}
 
 @dataclass(slots=True, eq=False)
 class Operand:
-    """An operand: its word, or its head with what the head takes; `name` in `'name = value`."""
+    """An operand: its word, or its head with the head's operands; `name` in `'name = value`."""
 
     token: Token
     frame: Frame | None = None
@@ -22,7 +22,7 @@ class Operand:
 
     @property
     def symbol(self) -> str | None:
-        """The symbol it is, if it is one."""
+        """The symbol, if the operand is one."""
         return self.token.text if self.token.kind == "SYMBOL" else None
 
 
@@ -36,7 +36,7 @@ class Frame:
     operands: list[Operand] = field(default_factory=list)
     commas: int = 0
     pending: str | None = None
-    """In a call, the name behind which an `=` stands and no value yet."""
+    """In a call, the name before an `=` that has no value yet."""
 
     def outwards(self) -> Iterator[Frame]:
         """Yield it and the frames around it, innermost first."""
@@ -53,13 +53,13 @@ class Frame:
 
 
 class FrameReader:
-    """Places one line after the other and tells which frame would take the next word."""
+    """Places one line after the other and finds the frame that would take the next word."""
 
     def __init__(self, text: str) -> None:
         self.margin = Frame()
         self._text = text
         self._closings: Closings | None = None
-        self._levels: list[tuple[str, Frame]] = []  # prefixes, and whose the deeper lines are
+        self._levels: list[tuple[str, Frame]] = []  # prefixes, and frames of deeper lines
         self._brackets: list[Frame] = []  # open parentheses and calls
         self._taker = self.margin
 
@@ -69,7 +69,7 @@ class FrameReader:
         return self._taker
 
     def owner(self, prefix: str) -> Frame:
-        """Return the frame that a line with this indentation belongs to."""
+        """Return the frame to which a line with this indentation belongs."""
         if self._brackets:
             return self._taker
         for level, frame in reversed(self._levels):
@@ -78,7 +78,7 @@ class FrameReader:
         return self.margin
 
     def begin(self, line: Line) -> None:
-        """Go to a new line; inside parentheses that changes nothing."""
+        """Go to a new line; inside parentheses this changes nothing."""
         if self._brackets and (line.prefix or self._continues(line)):
             return
         self._brackets.clear()
@@ -88,7 +88,7 @@ class FrameReader:
         self._levels.append((line.prefix, self._taker))
 
     def take(self, line: Line, number: int) -> None:
-        """Take the word of that number on a line."""
+        """Place the word of that number on a line."""
         token = line.tokens[number]
         called = number + 1 < len(line.tokens) and line.tokens[number + 1].kind == "_CALL"
         match token.kind:

@@ -1,4 +1,4 @@
-"""What the word at a place means."""
+"""Describes the word at a place."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Hover:
 
 
 def hover(text: str, offset: int, knowledge: Knowledge) -> Hover | None:
-    """Describe the word that an offset lies in, at its beginning or right behind it."""
+    """Describe the word at an offset, that is, inside it, at its beginning or right behind it."""
     where = place(text, offset)
     if where.token is None and offset < len(text):
         where = place(text, offset + 1)

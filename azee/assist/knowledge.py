@@ -1,4 +1,4 @@
-"""The names that mean something in a text: its rules, the body's parts, operators, constants."""
+"""The names that have a meaning in a text: its rules, the body's parts, operators, constants."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ _DEEPEST = 20
 
 @dataclass(frozen=True, slots=True)
 class Knowledge:
-    """What is in scope in a text, and which libraries it could use."""
+    """The scope of a text, and the libraries that it could use."""
 
     scope: Scope
     folders: Sequence[Path] = ()
-    """Where `use` looks beside the libraries that ship."""
+    """Folders in which `use` looks, beside the libraries that ship."""
 
     @classmethod
     def shipped(cls, folders: Sequence[Path] = ()) -> Knowledge:
-        """Return what a text knows that defines and uses nothing."""
+        """Return the knowledge of a text that defines and uses nothing."""
         libraries = [shipped_library(DEFAULT).namespace]
         return cls(Scope(Namespace(None), shipped_library(CORE).namespace, libraries), folders)
 
     def rule(self, name: str) -> Rule | None:
-        """Return the rule of a name; of several that the name might mean, the first."""
+        """Return the rule of a name; if the name is ambiguous, the first."""
         try:
             return self.scope.find(name)
         except AmbiguousRule as several:
@@ -54,17 +54,17 @@ class Knowledge:
                 yield rule
 
     def libraries(self) -> tuple[str, ...]:
-        """Return the names that `use` finds."""
+        """Return the names of libraries that `use` finds."""
         found = dict.fromkeys(shipped_names())
         for folder in self.folders:
             try:
                 found |= dict.fromkeys(names_in(folder))
             except OSError:
-                continue  # the text that uses a library from there is told
+                continue  # a mistake there is reported in the text that uses the library
         return tuple(found)
 
     def gives(self, rule: Rule) -> Kind | None:
-        """Return the kind of a rule's result where its body tells, without evaluating anything."""
+        """Return the kind of a rule's result if its body shows it, without evaluation."""
         body: Expr | None = rule.definition.body
         for _ in range(_DEEPEST):
             if not isinstance(body, Application):

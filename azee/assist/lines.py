@@ -1,7 +1,7 @@
-"""The words of a text line by line, however broken its layout is.
+"""The words of a text line by line, even if its layout is broken.
 
-The parser gives up a line that it cannot place and all below it; who colours or completes a text
-wants the words of every line. Both read them with the same WordReader.
+The parser skips a line that it cannot place and all lines below it. Colours and completion need the
+words of every line. Both read them with the same WordReader.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _DEF = re.compile(r"def(?=\s|\Z)")
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line that has words: its indentation, and where the words begin and end."""
+    """A line that has words: its indentation, and the places of its words."""
 
     start: int
     prefix: str
@@ -38,7 +38,7 @@ class Lines:
 
 
 def read_lines(text: str) -> Lines:
-    """Read a text; whatever is wrong with it is left to the parser to report."""
+    """Read a text; mistakes are ignored, since the parser reports them."""
     comments: list[tuple[int, int]] = []
     words = WordReader(Source("", text), lambda _: None, comments)
     found: list[Line] = []

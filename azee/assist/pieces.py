@@ -1,4 +1,4 @@
-"""What every word of a text is, for colouring it: the parser's tokens, comments included."""
+"""Classifies every word of a text for colouring: the parser's tokens, comments included."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from azee_grammar.token import BAD, Token
 
 
 class Category(Enum):
-    """What a piece of text is."""
+    """The class of a piece of text."""
 
     COMMENT = "comment"
     KEYWORD = "keyword"
     """`use` or `def` at the beginning of an item."""
     DEFINED = "defined"
-    """The name behind `def`."""
+    """The name after `def`."""
     RULE = "rule"
     """`:name`."""
     REFERENCE = "reference"
@@ -54,7 +54,7 @@ _CATEGORIES: Mapping[str, Category] = {
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A range of the text, `[start, end)` in code points, and what stands there."""
+    """A range of the text, `[start, end)` in code points, and its class."""
 
     category: Category
     start: int
@@ -64,8 +64,8 @@ class Piece:
 def pieces(text: str) -> tuple[Piece, ...]:
     """Return the words, punctuation and comments of a text in order; white space is left out.
 
-    Lines that the parser passes over after a mistake are told apart all the same. `use` and `def`
-    are keywords at the margin only; elsewhere they are the words that the parser refuses.
+    Lines that the parser skips after a mistake are classified too. `use` and `def` are keywords at
+    the margin only; elsewhere they are words that the parser refuses.
     """
     read = read_lines(text)
     found = [piece for line in read.lines for piece in _pieces(line)]

@@ -1,4 +1,4 @@
-"""Where in a text somebody is: the word being written, and what it would be an operand of."""
+"""The place of the cursor in a text: the word being written, and the head that takes it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _BLANKS = re.compile(r"[^\S\r\n]*")
 class Place:
     """The word at an offset and its surroundings.
 
-    `word` is what stands of it before the offset, from `start`; the whole word ends at `end`.
+    `word` is the part of the word before the offset, from `start`; the whole word ends at `end`.
     """
 
     start: int
@@ -27,16 +27,16 @@ class Place:
     token: Token | None
     """The whole word, as the parser reads it; None between words."""
     frame: Frame
-    """Whose operand the word is, or would be; its operands include those behind the word."""
+    """The frame whose operand the word is, or would be, including operands after the word."""
     number: int
-    """How many operands of the frame stand before the word."""
+    """How many operands of the frame come before the word."""
     commas: int
     pending: str | None
     """In a call, the name of the argument whose value is being written."""
     defined: tuple[str, ...]
     """Names of the rules that the text defines."""
     silent: bool
-    """Whether the offset lies in a comment or a text literal, where nothing means anything."""
+    """Whether the offset is in a comment or a text literal, where words have no meaning."""
 
     @property
     def before(self) -> list[Operand]:
@@ -45,7 +45,7 @@ class Place:
 
     @property
     def sigil(self) -> str:
-        """What the word begins with, if that tells what it is."""
+        """The sigil of the word, if it has one."""
         if self.word.startswith(":#"):
             return ":#"
         first = self.word[:1]
@@ -58,7 +58,7 @@ class Place:
 
 
 def place(text: str, offset: int) -> Place:
-    """Return where an offset, `0 <= offset <= len(text)`, lies."""
+    """Return the place of an offset, `0 <= offset <= len(text)`."""
     return _Finder(text, offset).found()
 
 
@@ -102,13 +102,13 @@ class _Finder:
             yield from line.tokens
 
     def _touches(self, token: Token) -> bool:
-        """Whether the offset lies in or right behind a word."""
+        """Whether the offset is in or right behind a word."""
         if token.kind in ("_OPEN", "_CALL", "_COMMA", "_EQUALS", "CLOSE"):
             return False
         return token.start < self._offset <= token.end
 
     def _capture(self, line: Line | None) -> None:
-        """Note who takes a word here, unless that is known; on a blank line its blanks tell."""
+        """Store the frame that takes a word here; on a blank line, its indentation decides."""
         if self._taken is not None:
             return
         reader = self._reader

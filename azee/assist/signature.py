@@ -1,4 +1,4 @@
-"""Which rule or operator is being applied at a place, and which of its operands is next."""
+"""Finds the rule or operator that is applied at a place, and its next operand."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from azee.lang.rule import Rule
 
 @dataclass(frozen=True, slots=True)
 class Signature:
-    """How something is applied, with the ranges in `text` of its operands, and the one at hand."""
+    """The notation of an application, ranges in `text` of its operands, and the current one."""
 
     text: str
     meaning: str
@@ -24,7 +24,7 @@ class Signature:
 
 
 def signature(text: str, offset: int, knowledge: Knowledge) -> Signature | None:
-    """Return the signature of what is being applied at an offset."""
+    """Return the signature of the application at an offset."""
     where = place(text, offset)
     head = where.frame.head
     if where.silent or head is None:

@@ -1,1 +1,1 @@
-"""A language server: what editors ask about AZee texts, answered over the protocol."""
+"""A language server for AZee texts."""

@@ -1,4 +1,4 @@
-"""What is known of one version of a text: its tree, its scope, its names, what is wrong with it."""
+"""The analysis of one version of a text: its tree, scope, names and mistakes."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from azee_grammar.syntax import (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sound:
-    """Items that were found right, with all that this depended on."""
+    """Items without mistakes, with everything that this result depends on."""
 
     rules: Mapping[str, tuple[Definition, ...]] = field(default_factory=dict)
     uses: tuple[Use, ...] = ()
@@ -38,7 +38,7 @@ class Sound:
 
 @dataclass(frozen=True, eq=False)
 class Analysis:
-    """A text, read; what is wrong with it is found out when it is asked for.
+    """A parsed text; its mistakes are computed on request.
 
     `read` are the texts of libraries that it depends on.
     """
@@ -68,10 +68,10 @@ class Analysis:
         return None
 
     def check(self, before: Sound) -> tuple[tuple[Diagnostic, ...], Sound]:
-        """Return all that is wrong, and what to hand over when the next version is checked.
+        """Return all mistakes, and the data for checking the next version.
 
-        What was right stays right while it reaches no rule that has changed: only the rest is
-        resolved and evaluated again, which is what costs time.
+        An item without mistakes stays so while no rule that it uses changes. Only the other items
+        are resolved and evaluated again, which takes most of the time.
         """
         known = self._still_sound(before)
         diagnostics = self.program.check(sound=known)
@@ -94,7 +94,7 @@ class Analysis:
 
     @cached_property
     def _rules(self) -> Mapping[str, tuple[Definition, ...]]:
-        """Definitions by name; of two of one name, the second is a mistake."""
+        """Definitions by name; a second definition of the same name is a mistake."""
         found: dict[str, tuple[Definition, ...]] = {}
         for item in self.program.file.items:
             if isinstance(item, Definition):
@@ -131,7 +131,7 @@ class Analysis:
 
 
 def _names(item: Item) -> Iterator[str]:
-    """Yield the names in an item that may be those of rules; a definition's own is one."""
+    """Yield the names in an item that may be names of rules; a definition's own name is one."""
     waiting: list[Expr | Named] = []
     if isinstance(item, Definition):
         yield item.name

@@ -1,4 +1,4 @@
-"""What azee knows, in the protocol's words: completion, hover, signatures, outlines, colours."""
+"""Answers in the terms of the protocol: completion, hover, signatures, outlines, colours."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def completed(analysis: Analysis, position: types.Position) -> types.CompletionL
 
 
 def hovered(analysis: Analysis, position: types.Position) -> types.Hover | None:
-    """Return what the word at a position means."""
+    """Return the meaning of the word at a position."""
     document = analysis.document
     found = hover(document.text, document.offset(position), analysis.knowledge)
     if found is None:
@@ -92,7 +92,7 @@ def hovered(analysis: Analysis, position: types.Position) -> types.Hover | None:
 
 
 def signed(analysis: Analysis, position: types.Position) -> types.SignatureHelp | None:
-    """Return how what stands around a position is applied, and which operand is next."""
+    """Return the signature of the application around a position, and the next operand."""
     document = analysis.document
     found = signature(document.text, document.offset(position), analysis.knowledge)
     if found is None:
@@ -154,7 +154,7 @@ def _blocks(document: Document, expr: Expr | None) -> Iterator[types.DocumentSym
 
 
 def coloured(analysis: Analysis) -> types.SemanticTokens:
-    """Return what every word of a text is; rules that ship are marked as such."""
+    """Return the class of every word of a text; shipped rules are marked."""
     document = analysis.document
     shipped = {f.span.end for f in analysis.occurrences if f.target.shipped}
     data: list[int] = []

@@ -1,4 +1,4 @@
-"""Open texts as an editor counts them: lines from 0, columns in UTF-16 code units."""
+"""Open texts with the positions of an editor: lines from 0, columns in UTF-16 code units."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 
 @dataclass(frozen=True)
 class Document:
-    """A version of a text, with the two ways to name a place in it.
+    """A version of a text, with the two kinds of positions in it.
 
     The protocol's lines end with LF, CRLF or CR alone, unlike those of `str.splitlines`, and its
-    columns count UTF-16 code units; offsets here count code points, as everywhere else in azee.
+    columns count UTF-16 code units. Offsets count code points, as everywhere else in azee.
     """
 
     uri: str
@@ -30,12 +30,12 @@ class Document:
 
     @cached_property
     def path(self) -> Path | None:
-        """Where it lies, if it is a file."""
+        """Its path, if it is a file."""
         return path_of(self.uri)
 
     @cached_property
     def source(self) -> Source:
-        """The text as the rest of azee reads it; a byte-order mark stays, for the offsets' sake."""
+        """The text as a source; a byte-order mark stays, so that offsets are right."""
         return Source(self.uri if self.path is None else str(self.path), self.text)
 
     @cached_property
@@ -43,14 +43,14 @@ class Document:
         return (0, *(end.end() for end in _LINE_END.finditer(self.text)))
 
     def position(self, offset: int) -> types.Position:
-        """Return where a code point stands."""
+        """Return the position of a code point."""
         line = bisect_right(self._starts, offset) - 1
         return types.Position(line, _units(self.text[self._starts[line] : offset]))
 
     def offset(self, position: types.Position) -> int:
         """Return the code point at a position; beyond the end of a line, its end.
 
-        Between the two halves of a surrogate pair, the character that they make.
+        Between the two halves of a surrogate pair, return their character.
         """
         if position.line >= len(self._starts):
             return len(self.text)
@@ -72,13 +72,13 @@ class Document:
 
     @property
     def whole(self) -> types.Range:
-        """The range of all of it."""
+        """The range of the whole text."""
         return types.Range(types.Position(0, 0), self.position(len(self.text)))
 
     def edited(
         self, changes: Iterable[types.TextDocumentContentChangeEvent], version: int | None
     ) -> Document:
-        """Return the text after changes, each of which counts from the one before."""
+        """Return the text after changes, each relative to the text after the one before."""
         document = self
         for change in changes:
             text = change.text
@@ -95,7 +95,7 @@ def _units(text: str) -> int:
 
 
 def path_of(uri: str) -> Path | None:
-    """Return the path of a `file:` address, None for any other, such as an unsaved text's."""
+    """Return the path of a `file:` address, None for others, such as those of unsaved texts."""
     from pygls.uris import to_fs_path
 
     found = to_fs_path(uri) if uri.startswith("file:") else None

@@ -1,4 +1,4 @@
-"""Diagnostics as the protocol carries them."""
+"""Diagnostics in the form of the protocol."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def messages(
 ) -> list[types.Diagnostic]:
     """Return the messages on one text.
 
-    What is wrong with a library it uses stands at its first `use`, with the place as related.
+    A mistake in a library that it uses is reported at its first `use`, with the place as related.
     """
     answers = []
     for diagnostic in found:

@@ -1,4 +1,4 @@
-"""Where names stand in a text, and what each of them names: a rule, an argument, a block."""
+"""Finds the names in a text, and what each of them names: a rule, an argument, a block."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _BLOCK_OF_REF = re.compile(r"([^:/]+)(?=:|$)")
 
 
 class What(Enum):
-    """What kind of thing a name names."""
+    """The kind of thing that a name names."""
 
     RULE = "rule"
     LOCAL = "name"
@@ -42,7 +42,7 @@ class What(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """What a name names, known by where it is declared: the name there, without its sigil."""
+    """The thing that a name names, identified by its name, without sigil, at its declaration."""
 
     what: What
     name: str
@@ -62,7 +62,7 @@ class Target:
 
 @dataclass(frozen=True, slots=True)
 class Occurrence:
-    """A name in a text: `span` covers it without its sigil, `sigil` is what stands before it."""
+    """A name in a text: `span` covers it without its sigil; `sigil` precedes it."""
 
     span: Span
     target: Target
@@ -140,7 +140,7 @@ class _Walk:
         self.expr(operands[2], {**visible, name.name: target})
 
     def _sync(self, node: Application) -> None:
-        """Note the blocks and the refs to them; their scores are walked by the caller."""
+        """Find the blocks and the refs to them; the caller walks their scores."""
         blocks = ShapeReader(node, flattened(node)).blocks()
         targets: dict[str, Target] = {}
         for name, *_ in blocks:
@@ -164,7 +164,7 @@ class _Walk:
 
 
 def occurrences(file: File, scope: Scope) -> Sequence[Occurrence]:
-    """Return all names of rules, parameters, locals and blocks that mean something, in order."""
+    """Return all names of rules, parameters, locals and blocks that have a meaning, in order."""
     walk = _Walk(scope)
     for item in file.items:
         if isinstance(item, Definition | Utterance):
@@ -173,7 +173,7 @@ def occurrences(file: File, scope: Scope) -> Sequence[Occurrence]:
 
 
 def rule_name(node: Application) -> str | None:
-    """Return the name of the rule that an application applies or hands over, if it does."""
+    """Return the name of the rule that an application applies or passes, if it does."""
     if isinstance(node.head, RuleName):
         return node.head.name
     if isinstance(node.head, OperatorName) and node.called and node.head.name not in NATIVES:
@@ -182,7 +182,7 @@ def rule_name(node: Application) -> str | None:
 
 
 def target_of(rule: Rule) -> Target:
-    """Return a rule as what a name names."""
+    """Return a rule as the thing that a name names."""
     shipped = rule.resolving is SHIPPED_RESOLVING
     return Target(What.RULE, rule.name, rule.definition.name_span, shipped)
 
@@ -205,5 +205,5 @@ def _found(scope: Scope, name: str) -> Rule | None:
 
 
 def _behind(span: Span, sigil: int) -> Span:
-    """Return the range of a name behind its sigil."""
+    """Return the range of a name after its sigil."""
     return Span(span.source, span.start + sigil, span.end)

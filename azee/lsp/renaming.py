@@ -1,4 +1,4 @@
-"""A name for something, everywhere."""
+"""Renames a thing everywhere."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from azee_grammar.syntax import (
 
 
 class CannotRename(Exception):  # noqa: N818 - its message is for the person who asks
-    """Why something cannot be renamed, in words for the person who asked."""
+    """The reason why something cannot be renamed, in the user's words."""
 
 
 def places(texts: Texts, target: Target) -> Iterator[tuple[Document, Occurrence]]:
-    """Yield every place of every known text where something is named."""
+    """Yield every place in every known text that names a thing."""
     if target.what is What.BLOCK:
         documents = filter(None, [texts.named(target.place.source.name)])
     else:
@@ -41,7 +41,7 @@ def places(texts: Texts, target: Target) -> Iterator[tuple[Document, Occurrence]
 
 
 def renamed(texts: Texts, target: Target, name: str) -> dict[str, list[types.TextEdit]]:
-    """Return the edits, by text, that give something another name.
+    """Return the edits, by text, that give a thing another name.
 
     Raises: CannotRename: with the reason.
     """
@@ -66,7 +66,7 @@ def _is_here(texts: Texts, target: Target) -> bool:
 
 
 def _may_be_called(what: What, name: str) -> bool:
-    """Whether the parser reads the name back as it is."""
+    """Whether the parser reads the name back unchanged."""
     sigil = {What.RULE: ":", What.LOCAL: "^", What.BLOCK: "'"}[what]
     expr, problems = parse_expression(Source("name", sigil + name))
     if problems or expr is None or (what is What.BLOCK and {":", "/"} & set(name)):
@@ -99,7 +99,7 @@ def _require_free(texts: Texts, target: Target, name: str) -> None:
 
 
 def _require_readable(texts: Texts, name: str) -> None:
-    """Refuse where names may stand in what the parser gave up: they would be left as they are."""
+    """Refuse if text that the parser skipped may have the name: it would not be renamed."""
     for document in texts.all():
         if name in document.text and parse(document.source).diagnostics:
             where = document.path.name if document.path else document.uri

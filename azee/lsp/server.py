@@ -1,4 +1,4 @@
-"""`azee lsp`: the questions of an editor, each answered from what `Texts` knows."""
+"""`azee lsp`: answers the requests of an editor from `Texts`."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from azee_grammar.source import Span
 from azee_grammar.syntax import Definition
 
 PAUSE_S = 0.02
-"""How long typing must rest before a text is checked: keys that come at once are one change."""
+"""How long typing must pause before a text is checked; keys before that are one change."""
 
 
 class Server(LanguageServer):
-    """The language server; `texts` are all that it knows."""
+    """The language server; `texts` has all texts that it knows."""
 
     def __init__(self, libraries: Sequence[Path] = ()) -> None:
         super().__init__("azee", version("azee"))
@@ -49,11 +49,11 @@ class Server(LanguageServer):
         return found
 
     def analysis(self, uri: str) -> Analysis:
-        """Return what is known of a text."""
+        """Return the analysis of a text."""
         return self.texts.analysis(self.document(uri))
 
     def located(self, span: Span) -> types.Location | None:
-        """Return where a span of any text stands."""
+        """Return the location of a span of any text."""
         document = self.texts.named(span.source.name)
         if document is None or span.end > len(document.text):
             return None
@@ -65,7 +65,7 @@ class Server(LanguageServer):
         return self.texts.analysis(document).at(document.offset(position))
 
     def check_soon(self, uri: str) -> None:
-        """Publish what is wrong with a text, and with those that use it, once typing rests."""
+        """Publish the mistakes in a text, and in those that use it, once typing pauses."""
         waiting = self._waiting.pop(uri, None)
         if waiting is not None:
             waiting.cancel()
@@ -73,7 +73,7 @@ class Server(LanguageServer):
         self._waiting[uri] = loop.call_later(PAUSE_S, self._check, uri)
 
     def check_all(self) -> None:
-        """Publish what is wrong with every open text, once typing rests."""
+        """Publish the mistakes in every open text, once typing pauses."""
         for uri in self.texts.open:
             self.check_soon(uri)
 

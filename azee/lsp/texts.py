@@ -1,4 +1,4 @@
-"""All texts that a server knows: those open in the editor, and those on the disk around them."""
+"""All texts of a server: those open in the editor, and those on the disk around them."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from azee_grammar.library import shipped
 from azee_grammar.source import Source
 
 MOST_FILES = 2000
-"""Of the folders that are open, beyond which names are no longer looked for."""
+"""The most files of the open folders in which names are searched."""
 _OF_TOOLS = frozenset({"node_modules", "__pycache__", "dist", "build", "out"})
 
 
 class Texts:
-    """The newest version of every text, and what is known of each."""
+    """The newest version of every text, and its analysis."""
 
     def __init__(self, libraries: Sequence[Path] = ()) -> None:
         self.libraries = tuple(path.absolute() for path in libraries)
@@ -28,7 +28,7 @@ class Texts:
         self._sound: dict[str, Sound] = {}
         self._paths: dict[Path, str] = {}
 
-    # What changes ---------------------------------------------------------------------------
+    # Changes --------------------------------------------------------------------------------
 
     def put(self, document: Document) -> None:
         """Take a new version of an open text."""
@@ -39,7 +39,7 @@ class Texts:
         self._forget(document.path, everything=new)
 
     def close(self, uri: str) -> None:
-        """Go back to what the disk has."""
+        """Return to the version on the disk."""
         document = self.open.pop(uri, None)
         if document is not None:
             self._paths.pop(document.path or Path(), None)
@@ -51,7 +51,7 @@ class Texts:
         self._analyses.clear()
 
     def _forget(self, path: Path | None, *, everything: bool) -> None:
-        """Forget what depends on a text."""
+        """Forget the analyses that depend on a text."""
         if everything:
             self._analyses.clear()
             return
@@ -61,10 +61,10 @@ class Texts:
             if name in names or uri not in self.open:
                 del self._analyses[uri]
 
-    # What is known --------------------------------------------------------------------------
+    # Queries --------------------------------------------------------------------------------
 
     def analysis(self, document: Document) -> Analysis:
-        """Return what is known of a text."""
+        """Return the analysis of a text."""
         found = self._analyses.get(document.uri)
         if found is None or found.document.text != document.text:
             found = analyse(document, self.libraries, self._read)
@@ -72,7 +72,7 @@ class Texts:
         return found
 
     def check(self, document: Document) -> tuple[Diagnostic, ...]:
-        """Return all that is wrong with a text."""
+        """Return all mistakes in a text."""
         before = self._sound.get(document.uri, Sound())
         diagnostics, self._sound[document.uri] = self.analysis(document).check(before)
         return diagnostics
@@ -87,7 +87,7 @@ class Texts:
                 yield other
 
     def named(self, name: str) -> Document | None:
-        """Return the text that a source's name means: open, on the disk, or shipped."""
+        """Return the text of a source's name: open, on the disk, or shipped."""
         if name in self.open:
             return self.open[name]
         path = Path(name)
@@ -96,7 +96,7 @@ class Texts:
         return self.at(path)
 
     def at(self, path: Path) -> Document | None:
-        """Return the text of a file, as it is in the editor or else on the disk."""
+        """Return the text of a file, from the editor or else from the disk."""
         if path in self._paths:
             return self.open[self._paths[path]]
         try:
@@ -122,7 +122,7 @@ class Texts:
 
 
 def _files(root: Path) -> Iterator[Path]:
-    """Yield the AZee files below a folder, hidden ones and those of tools left out."""
+    """Yield the AZee files below a folder, without hidden files and those of tools."""
     try:
         inside = sorted(root.iterdir())
     except OSError:

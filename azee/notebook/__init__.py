@@ -1,1 +1,1 @@
-"""How scores, clips, bodies and reports show themselves in a notebook."""
+"""Shows scores, clips, bodies and reports in notebooks."""

@@ -1,7 +1,6 @@
 """What each kind of object shows in a notebook: data by MIME type.
 
-A notebook that has not been declared trustworthy drops scripts and frames; pictures and tables are
-what it shows then.
+A notebook that is not trusted drops scripts and frames and shows pictures and tables only.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ def score(shown: Score) -> Bundle:
 
 
 def compilation(made: Compilation) -> Bundle:
-    """Show the score, the moving body, and how well the constraints are met."""
+    """Show the score, the moving body, and the table of constraints."""
     from azee.export.pictures.score_svg import draw
 
     moving = _moving(made.clip, made.rig, made.animation.key_times)
@@ -45,12 +44,12 @@ def compilation(made: Compilation) -> Bundle:
 
 
 def animation(made: Animation) -> Bundle:
-    """Show how well the constraints are met; the clip is shown with its body."""
+    """Show the table of constraints; the clip is shown with its body."""
     return report(made.report)
 
 
 def clip(shown: Clip) -> Bundle:
-    """Show a clip on the body that ships if it was made for that, else its labels."""
+    """Show a clip on the shipped body if it was made for that, otherwise its labels."""
     from azee_rig.load import load_rig
 
     facts = f"a clip of {shown.duration_s:.2f} s, {len(shown.times)} frames"
@@ -73,7 +72,7 @@ def report(shown: MotionReport) -> Bundle:
 
 
 def rig(shown: Rig) -> Bundle:
-    """Show a body at rest, and what it has."""
+    """Show a body in its idle posture, and what it has."""
     from azee.export.pictures.picture import picture
 
     data = io.BytesIO()
@@ -92,7 +91,7 @@ def rig(shown: Rig) -> Bundle:
 
 
 def _moving(shown: Clip, body: Rig, moments: Iterable[float]) -> str:
-    """Return a player, with a picture below it for where players are not allowed."""
+    """Return a player, with a picture for notebooks where players are not allowed."""
     from azee.notebook.view import framed, page, still
 
     moments = tuple(moments)

@@ -1,4 +1,4 @@
-"""Telling IPython how our objects are shown, by the names of classes: none is loaded for it."""
+"""Registers with IPython how our objects are shown, by class names, without importing them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SHOWN = {
     ("azee.quality.motion_report", "MotionReport"): "report",
     ("azee_rig.rig", "Rig"): "rig",
 }
-"""Module and name of a class to the function of display.py that shows it."""
+"""Maps module and name of a class to the function of display.py that shows it."""
 
 
 def register(ipython: Any) -> None:

@@ -1,4 +1,4 @@
-"""A moving body as HTML that needs nothing from anywhere: the file, its player, a still picture."""
+"""A moving body as HTML that needs no network: the file, its player, a still picture."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 SIZE = (560, 480)
 _STILL = (140, 175)
 _MOST = 6
-"""Postures in the still picture."""
+"""Number of postures in the still picture."""
 
 _PAGE = """<!doctype html><html><head><meta charset="utf-8"><style>
 body {{ margin: 0; font: 13px system-ui, sans-serif }}
@@ -40,7 +40,7 @@ if (!played) {{ stage.hidden = true; document.getElementById('still').hidden = f
 
 
 def page(clip: Clip, rig: Rig, moments: Sequence[float]) -> str:
-    """Return a document that plays a clip, and shows a picture where it cannot.
+    """Return a document that plays a clip, or shows a picture if it cannot.
 
     Args: moments: seconds on the clip's time line that the picture shows.
     """
@@ -57,7 +57,7 @@ def page(clip: Clip, rig: Rig, moments: Sequence[float]) -> str:
 
 
 def framed(document: str) -> str:
-    """Return a document as a frame of its own, which cannot touch the notebook around it."""
+    """Return a document as a frame of its own, which cannot access the notebook around it."""
     width, height = SIZE
     return (
         f'<iframe sandbox="allow-scripts" width="{width + 10}" height="{height + 45}" '
@@ -66,7 +66,7 @@ def framed(document: str) -> str:
 
 
 def still(clip: Clip, rig: Rig, moments: Sequence[float]) -> bytes:
-    """Return a strip of the postures that tell most of a clip, PNG."""
+    """Return a strip of the most informative postures of a clip, PNG."""
     from azee.export.pictures.picture import contact_sheet, picture
     from azee.export.pictures.storyboard import telling_frames
 

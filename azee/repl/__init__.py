@@ -1,1 +1,1 @@
-"""The prompt at which AZee is tried: `azee repl`."""
+"""The prompt for trying AZee: `azee repl`."""

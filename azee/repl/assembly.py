@@ -1,4 +1,4 @@
-"""One program of what was typed and of the files that were loaded."""
+"""Makes one program of the typed input and the loaded files."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""What a line that begins with `/` and a letter does: everything that is not AZee.
+"""The commands of the prompt: lines that begin with `/` and a letter.
 
-No operator of AZee begins with `/`. A rule whose name does is still applied by `:/name`.
+No operator of AZee begins with `/`. A rule whose name does is applied as `:/name`.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _COMMAND = re.compile(r"\s*/([A-Za-z]+)(?:\s+(.*?))?\s*\Z", re.S)
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A command: how it is written, what it does, and the function that does it."""
+    """A command: its notation, its effect, and its function."""
 
     pattern: str
     meaning: str
@@ -35,15 +35,15 @@ class Command:
 
 
 def is_command(text: str) -> bool:
-    """Whether a text is one for `carry_out`."""
+    """Whether a text is a command for `carry_out`."""
     start = text.lstrip()
     return len(start) > 1 and start[0] == "/" and start[1].isalpha()
 
 
 def answer(repl: Repl, text: str) -> bool:
-    """Carry out a command or evaluate AZee; return whether nothing was wrong with the input.
+    """Carry out a command or evaluate AZee; return whether the input had no mistake.
 
-    Raises: Quit: that was what the user wanted.
+    Raises: Quit: the user ended the session.
     """
     if is_command(text):
         return repl.attempt(lambda: carry_out(repl, text))
@@ -51,9 +51,9 @@ def answer(repl: Repl, text: str) -> bool:
 
 
 def carry_out(repl: Repl, text: str) -> bool:
-    """Do what a command says, and return that it was done.
+    """Carry out a command, and return True.
 
-    Raises: Refusal: it cannot be done. AZeeError: the input or a file is at fault. Quit.
+    Raises: Refusal: the command is impossible. AZeeError: the input or a file is at fault. Quit.
     """
     found = _COMMAND.match(text)
     name = found[1] if found else text.split()[0][1:]

@@ -1,7 +1,7 @@
-"""A score drawn with characters: blocks over a time axis, what is inside a block below it.
+"""Draws a score with characters: blocks over a time axis, inner blocks below their block.
 
-Every block is a bar as long as the block lasts. Bars of one level share a row while neither they
-nor their names meet. A name that is wider than its bar stands behind it.
+Every block is a bar as long as the block. Bars of one level share a row if neither they nor their
+names overlap. A name that is wider than its bar is written behind it.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from azee_solver.constraint import (
 
 NARROWEST = 24
 MOST_ROWS = 40
-"""Of a longer diagram the deepest levels are left out."""
+"""The most rows of a diagram; the deepest levels of a longer one are left out."""
 _TRUNK = ("head", "neck", "back", "clav", "jaw")
 _TICK_COLUMNS = 9
 _STEPS = [Fraction(n, 20) for n in (1, 2, 4, 10, 20, 40, 100, 200, 400, 1200, 6000, 12000, 72000)]
@@ -54,20 +54,20 @@ class _Bar:
 
     @property
     def begin(self) -> int:
-        """The first column in which something is drawn."""
+        """The first column that is drawn in."""
         return min(self.first, self.label_at)
 
     @property
     def reach(self) -> int:
-        """The column behind all that is drawn."""
+        """The column after the last that is drawn in."""
         return max(self.end, self.label_at + width(self.label))
 
 
 def diagram(score: Score, columns: int, *, colour: bool) -> tuple[Line, ...]:
     """Draw a score within a number of columns, at least `NARROWEST`.
 
-    With colour a bar is a coloured stretch, and its colour tells which part of the body it speaks
-    of; without, it is drawn between `├` and `┤`.
+    With colours, a bar is a coloured stretch, and its colour shows the part of the body that its
+    constraints name. Without colours, it is drawn between `├` and `┤`.
     """
     columns = max(columns, NARROWEST)
     rows, left_out = _fitting_rows(nested(score), score.duration, columns)
@@ -81,7 +81,7 @@ def diagram(score: Score, columns: int, *, colour: bool) -> tuple[Line, ...]:
 
 
 def _fitting_rows(whole: Box, duration: Fraction, columns: int) -> tuple[list[list[_Bar]], bool]:
-    """Return the rows of as many levels as `MOST_ROWS` take, and whether that is not all."""
+    """Return the rows of as many levels as fit into `MOST_ROWS`, and whether some are left out."""
     deepest = max(box.depth for box in whole.all())
     for levels in range(deepest, -1, -1):
         rows = list(_rows([whole], duration, columns, levels))
@@ -95,7 +95,7 @@ def _fitting_rows(whole: Box, duration: Fraction, columns: int) -> tuple[list[li
 def _rows(
     boxes: Sequence[Box], duration: Fraction, columns: int, levels: int
 ) -> Iterator[list[_Bar]]:
-    """Yield rows of bars, each followed by the rows of what is inside its bars, to a depth."""
+    """Yield rows of bars, each followed by the rows of inner blocks, down to a depth."""
     bars = [_bar(box, duration, columns) for box in boxes]
     taken = [Interval(Fraction(bar.begin), Fraction(bar.reach + 1)) for bar in bars]
     for lane in lanes(taken):
@@ -139,7 +139,7 @@ def _drawn(row: Sequence[_Bar], *, colour: bool) -> Line:
 
 
 def _face(bar: _Bar, *, colour: bool) -> str:
-    """Return the characters of a bar, its name included if that stands inside."""
+    """Return the characters of a bar, with its name if that is inside."""
     size = bar.end - bar.first
     inside = bar.label if bar.first < bar.label_at < bar.end else ""
     rest = size - 1 - width(inside)
@@ -151,7 +151,7 @@ def _face(bar: _Bar, *, colour: bool) -> str:
 
 
 def _ink(box: Box) -> Ink:
-    """Return the colour of a block: what its constraints move, most of all."""
+    """Return the colour of a block: that of the part that most of its constraints move."""
     match box.score:
         case Group():
             return Ink.GROUP if box.depth % 2 == 0 else Ink.GROUP_INSIDE

@@ -1,4 +1,4 @@
-"""Where inputs are remembered from one session to the next."""
+"""Stores inputs from one session to the next."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from pathlib import Path
 from prompt_toolkit.history import FileHistory, History, InMemoryHistory
 
 VARIABLE = "AZEE_HISTORY"
-"""Names another file; empty, nothing is remembered."""
+"""The variable that names another file; if it is empty, nothing is stored."""
 
 
 def history_file() -> Path | None:
-    """Return the file: what `AZEE_HISTORY` names, else one in the user's own folder for state."""
+    """Return the file that `AZEE_HISTORY` names, or else one in the user's folder for state."""
     named = os.environ.get(VARIABLE)
     if named is not None:
         return Path(named).expanduser() if named else None
@@ -27,7 +27,7 @@ def history_file() -> Path | None:
 
 
 def remembered(path: Path | None) -> History:
-    """Return the history in a file, or one of this session alone where there can be no file."""
+    """Return the history in a file, or a history of this session only if there can be no file."""
     if path is None:
         return InMemoryHistory()
     try:

@@ -1,4 +1,4 @@
-"""Text with colours, and how it becomes what a terminal understands."""
+"""Text with colours, and its form for a terminal."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from azee_grammar.excerpt import printable
 
 
 class Ink(Enum):
-    """A way to write; the value is its ANSI code (ECMA-48, Select Graphic Rendition)."""
+    """A style; the value is its ANSI code (ECMA-48, Select Graphic Rendition)."""
 
     PLAIN = ""
     STRONG = "1"
@@ -40,7 +40,7 @@ def plain(text: str, ink: Ink = Ink.PLAIN) -> Line:
 
 
 def written(lines: Iterable[Line], *, colour: bool) -> str:
-    """Return lines as text for a terminal; what could steer it is escaped."""
+    """Return lines as text for a terminal; characters that could control it are escaped."""
     return "".join(f"{_line(line, colour)}\n" for line in lines)
 
 
@@ -56,12 +56,12 @@ def _fragment(ink: Ink, text: str) -> str:
 
 
 def width(text: str) -> int:
-    """Return how many columns of a terminal a text takes."""
+    """Return the number of terminal columns of a text."""
     return sum(_columns(c) for c in text)
 
 
 def cut(text: str, columns: int) -> str:
-    """Return the text, shortened with an ellipsis if it is wider than so many columns."""
+    """Return the text, shortened with an ellipsis if it has more columns than a bound."""
     if width(text) <= columns:
         return text
     kept, taken = [], 0

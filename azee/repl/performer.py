@@ -1,4 +1,4 @@
-"""A body that plays what was evaluated, kept ready between one answer and the next."""
+"""The body that plays evaluated scores; it stays loaded from one answer to the next."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ if TYPE_CHECKING:
     from azee_rig.rig import Rig
 
 SHOWN_S = Fraction(1)
-"""How long a set of constraints is held that is to be seen."""
+"""How long a set of constraints is held to be shown."""
 
 
 class Performer:
-    """Solves scores, each once, and gets ready for that while nobody waits."""
+    """Solves scores, each once, and loads body and solver in the background."""
 
     def __init__(self, rig_name: str, hand: Hand) -> None:
         self.rig_name = rig_name
@@ -47,11 +47,11 @@ class Performer:
         self._made: tuple[Score, Compilation] | None = None
         self._warming: threading.Thread | None = None
         self.took_s = 0.0
-        """How long the last solution took, from score to clip."""
+        """Duration of the last solution, from score to clip."""
 
     @property
     def rig(self) -> Rig:
-        """The body. Raises: Refusal: there is none of that name, or it cannot be read."""
+        """The body. Raises: Refusal: there is no body of that name, or it cannot be read."""
         if self._rig is None:
             self._rig = _body(self.rig_name)
         return self._rig
@@ -59,7 +59,7 @@ class Performer:
     def change(self, rig_name: str | None = None, hand: Hand | None = None) -> None:
         """Take another body or another dominant hand.
 
-        Raises: Refusal: there is no such body; then the one before stays.
+        Raises: Refusal: there is no such body; then the body stays the same.
         """
         if rig_name is not None:
             self._rig = _body(rig_name)
@@ -69,7 +69,7 @@ class Performer:
         self._made = None
 
     def perform(self, score: Score) -> Compilation:
-        """Solve a score, unless it is the one that was solved last.
+        """Solve a score, unless it was solved last.
 
         Raises: AZeeError: the body lacks what the score names. Refusal: there is no body.
         """
@@ -84,12 +84,12 @@ class Performer:
         return self._made[1]
 
     def warm_up(self) -> None:
-        """Load the body, the solver and its kernels beside the prompt."""
+        """Load the body, the solver and its kernels in the background."""
         self._warming = threading.Thread(target=self._warm, daemon=True, name="warm-up")
         self._warming.start()
 
     def ready(self, patience_s: float = 0.0) -> bool:
-        """Return whether all is loaded, or is so before patience ends."""
+        """Return whether everything is loaded, after waiting for a while at most."""
         if self._warming is not None:
             self._warming.join(patience_s)
         return self._warming is None or not self._warming.is_alive()
@@ -101,7 +101,7 @@ class Performer:
         try:
             perform(evaluate_expression(WARMING).score, _body(self.rig_name))
         except (AZeeError, Refusal):
-            return  # whoever asks for the body is told
+            return  # reported when the body is needed
 
 
 def _body(name: str) -> Rig:
@@ -114,11 +114,11 @@ def _body(name: str) -> Rig:
 
 
 WARMING = ":info-about(:cinéma, :bien)"
-"""An expression that calls on all kernels: contacts, paths, collisions, the face."""
+"""An expression that uses all kernels: contacts, paths, collisions, the face."""
 
 
 def playable(value: Value) -> Score | None:
-    """Return the score that shows a value: a score itself, constraints held for a while."""
+    """Return the score that shows a value: the score itself, or constraints held for a while."""
     match value:
         case ScoreValue(content=score):
             return score
@@ -142,7 +142,7 @@ def playable(value: Value) -> Score | None:
 
 
 def required(value: Value) -> Score:
-    """Return the score that shows a value. Raises: Refusal: there is nothing to see of it."""
+    """Return the score that shows a value. Raises: Refusal: the value cannot be shown."""
     score = playable(value)
     if score is None:
         raise Refusal(

@@ -1,4 +1,4 @@
-"""Reading without line editing: from a pipe or a file, or at a simple terminal."""
+"""Reads without line editing: from a pipe, from a file or at a simple terminal."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PROMPT, CONTINUED = "azee> ", "  ... "
 
 
 def read_through(repl: Repl, stream: TextIO) -> bool:
-    """Run the items and commands of a stream as they come; return whether all were right."""
+    """Run the items and commands of a stream; return whether none had a mistake."""
     right = True
     try:
         for text in inputs(stream):
@@ -25,7 +25,7 @@ def read_through(repl: Repl, stream: TextIO) -> bool:
 
 
 def inputs(stream: TextIO) -> Iterator[str]:
-    """Yield commands and items of AZee; an item ends where the next line stands at the margin."""
+    """Yield commands and items of AZee; an item ends if the next line begins at the margin."""
     waiting = ""
     for line in stream:
         at_margin = bool(line.strip()) and not line[0].isspace()
@@ -42,7 +42,7 @@ def inputs(stream: TextIO) -> Iterator[str]:
 
 
 def converse(repl: Repl) -> None:
-    """Read and answer until the user leaves; an empty line ends what has lines below."""
+    """Read and answer until the user leaves; an empty line ends an input of several lines."""
     while True:
         try:
             text = _typed(repl)

@@ -1,4 +1,4 @@
-"""A posture of the last result as a picture: in a file, or in the terminal itself."""
+"""A posture of the last result as a picture, in a file or in the terminal."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 SIZE = (720, 900)
 WIDEST = 72
-"""Columns of a picture in the terminal. A row of text holds two of its rows."""
+"""Columns of a picture in the terminal. A row of text shows two of its rows."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wish:
-    """Which posture, from where, and the file it goes to, if any."""
+    """The time of the posture, the view, and the file for it, if any."""
 
     path: Path | None
     time_s: float | None
@@ -30,7 +30,7 @@ class Wish:
 
     @classmethod
     def read(cls, argument: str) -> Wish:
-        """Read `[FILE.png] [SECONDS] [VIEW]`. Raises: Refusal: it is something else."""
+        """Read `[FILE.png] [SECONDS] [VIEW]`. Raises: Refusal: the text has another form."""
         from azee.export.pictures.camera import VIEWS
 
         words = argument.split()
@@ -62,7 +62,7 @@ class Wish:
 
 
 def drawn(made: Compilation, wish: Wish, columns: int, rows: int) -> str:
-    """Draw a posture; return the text that shows it in a terminal, empty if it went to a file.
+    """Draw a posture; return its text for a terminal, empty if it was written to a file.
 
     Raises: AZeeError: cannot-write.
     """

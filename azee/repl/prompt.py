@@ -1,4 +1,4 @@
-"""The prompt on a terminal: editing, colours, completion, and when an input is whole."""
+"""The prompt on a terminal: editing, colours, completion, and the end of an input."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def terminal_screen() -> Screen:
 
 
 def converse(repl: Repl, history: History) -> None:
-    """Read and answer until the user leaves."""
+    """Read and answer until the user ends the session."""
     colour = repl.screen.colour
     session: PromptSession[str] = PromptSession(
         history=history,
@@ -100,7 +100,7 @@ def converse(repl: Repl, history: History) -> None:
 
 
 class _Lexer(Lexer):
-    """Colours as the parser reads; commands are told apart."""
+    """Colours words as the parser reads them, and commands."""
 
     def lex_document(self, document: Document) -> Callable[[int], StyleAndTextTuples]:
         text = document.text
@@ -122,7 +122,7 @@ class _Lexer(Lexer):
 
 
 class _Completer(Completer):
-    """Names that fit, with what they mean; while one types, only once a word has begun."""
+    """Completes names, with their meanings; while typing, only inside a word."""
 
     def __init__(self, repl: Repl) -> None:
         self._repl = repl
@@ -174,7 +174,7 @@ def _keys(repl: Repl) -> KeyBindings:
         if state is not None and state.current_completion is not None:
             buffer.complete_state = None
         elif _ends(buffer.document, repl):
-            buffer.document = Document(buffer.text.rstrip())  # so that, recalled, it can go on
+            buffer.document = Document(buffer.text.rstrip())  # so that a recalled input can go on
             buffer.validate_and_handle()
         else:
             buffer.insert_text(f"\n{_indentation(buffer, repl)}")
@@ -202,7 +202,7 @@ def _keys(repl: Repl) -> KeyBindings:
 
 
 def _ends(document: Document, repl: Repl) -> bool:
-    """Whether Enter ends the input: it is whole, or the line is empty and the last one."""
+    """Whether Enter ends the input: it is complete, or the line is empty and the last one."""
     text = document.text
     if document.text_after_cursor.strip():
         return False
@@ -214,7 +214,7 @@ def _ends(document: Document, repl: Repl) -> bool:
 
 
 def _indentation(buffer: Buffer, repl: Repl) -> str:
-    """Return the blanks of the line to come: as above, deeper below what lacks something."""
+    """Return the indentation of the next line: as above, or deeper below an incomplete line."""
     line = buffer.document.current_line_before_cursor
     blanks = line[: len(line) - len(line.lstrip())]
     if not blanks or wants_deeper(line, repl.session.knowledge):
@@ -223,7 +223,7 @@ def _indentation(buffer: Buffer, repl: Repl) -> str:
 
 
 def _toolbar(repl: Repl) -> StyleAndTextTuples:
-    """Show what is being applied and the operand at hand, else how to go on."""
+    """Return the line at the bottom: the application and its current operand, or how to go on."""
     buffer = get_app().current_buffer
     text, at = buffer.text, buffer.cursor_position
     if not commands.is_command(text) and text.strip():

@@ -1,4 +1,4 @@
-"""What a command cannot do."""
+"""The error of a command that is impossible."""
 
 from __future__ import annotations
 

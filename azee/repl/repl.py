@@ -1,4 +1,4 @@
-"""One input after the other: evaluated, shown, solved; or a command, carried out."""
+"""The loop of the prompt: evaluates, shows and solves inputs, and carries out commands."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from azee.repl.value_text import value_lines
 from azee_grammar.diagnostic import AZeeError, Severity
 
 PATIENCE_S = 1.5
-"""After which it is explained why an answer takes longer."""
+"""After this time, a message explains why an answer takes longer."""
 
 
 class Quit(Exception):  # noqa: N818 - the user wants to
@@ -26,8 +26,8 @@ class Quit(Exception):  # noqa: N818 - the user wants to
 class Repl:
     """A session, a body and a screen.
 
-    interactive: whether somebody waits at a prompt, to whom Ctrl-C means only what is running.
-    solving: whether every score is solved at once and the outcome told.
+    interactive: whether a user waits at a prompt, where Ctrl-C only interrupts what is running.
+    solving: whether every score is solved at once and the outcome printed.
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class Repl:
         self.interactive, self.solving = interactive, solving
 
     def evaluate(self, text: str) -> bool:
-        """Evaluate an input and show what it gives; return whether nothing was wrong with it.
+        """Evaluate an input and show its value; return whether it had no mistake.
 
         Raises: AZeeError: the text is at fault.
         """
@@ -54,9 +54,9 @@ class Repl:
         return right
 
     def attempt(self, action: Callable[[], bool]) -> bool:
-        """Do something and tell what goes wrong; return whether nothing did.
+        """Call a function and report its errors; return whether there was none.
 
-        Raises: Quit: that was what the user wanted.
+        Raises: Quit: the user ended the session.
         """
         try:
             return action()
@@ -78,7 +78,7 @@ class Repl:
         return False
 
     def load(self, paths: Sequence[Path]) -> bool:
-        """Load files; return whether nothing is wrong with them."""
+        """Load files; return whether none has a mistake."""
         right = True
         for path in paths:
             try:
@@ -92,12 +92,12 @@ class Repl:
         return right
 
     def refresh(self) -> None:
-        """Take in changes of files before anything is evaluated."""
+        """Read changed files before evaluation."""
         if (reloaded := self.session.refresh()) is not None:
             self.tell(reloaded)
 
     def tell(self, reloaded: Reloaded) -> None:
-        """Tell what came of reading files again."""
+        """Report the result of reading files again."""
         names = ", ".join(path.name for path in reloaded.paths)
         if reloaded.mistakes:
             self.screen.complain(reloaded.mistakes)
@@ -107,7 +107,7 @@ class Repl:
             self.screen.say(f"reloaded {names}")
 
     def solved(self) -> None:
-        """Solve the last result and tell the outcome."""
+        """Solve the last result and report the outcome."""
         score = playable(self.session.last.value) if self.session.last else None
         if score is None:
             return

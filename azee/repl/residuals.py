@@ -1,4 +1,4 @@
-"""What came of solving, in lines: an outcome at a glance, and every constraint in a table."""
+"""The outcome of solving in lines: a summary, and every constraint in a table."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def summary(report: MotionReport, took_s: float) -> Iterator[Line]:
 
 
 def table(report: MotionReport, columns: int) -> Iterator[Line]:
-    """Show every constraint, in order of time: when, in which block, how far off, of how much."""
+    """Return a table of constraints in order of time: when, in which block, residual, tolerance."""
     rows = sorted(report.constraints, key=lambda r: (r.start_s, r.end_s, r.path))
     if not rows:
         return

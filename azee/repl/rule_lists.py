@@ -1,4 +1,4 @@
-"""Rules and other names looked up at the prompt."""
+"""Searches for rules and other names at the prompt."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from azee_grammar import vocabulary
 from azee_grammar.nearest import nearest
 
 HERE = "here"
-"""What the list calls rules that were typed or loaded."""
+"""Heading of the rules that were typed or loaded."""
 
 
 def listed(knowledge: Knowledge, words: str, columns: int) -> Iterator[Line]:
-    """List the rules in scope by library, those that speak of all words: name and meaning."""
+    """List the rules in scope that have all words, by library: name and meaning."""
     wanted = _plain(words).split()
     by_library: dict[str, list[Rule]] = {}
     for rule in knowledge.rules():
@@ -35,7 +35,7 @@ def listed(knowledge: Knowledge, words: str, columns: int) -> Iterator[Line]:
 
 
 def described(knowledge: Knowledge, name: str, columns: int) -> Iterator[Line]:
-    """Tell all about a name. Raises: Refusal: nothing bears it."""
+    """Explain a name. Raises: Refusal: nothing has this name."""
     found = describe(name, knowledge)
     if not found:
         bare = name.lstrip(":#.!@^'")
@@ -67,6 +67,6 @@ def _searched(rule: Rule) -> str:
 
 
 def _plain(text: str) -> str:
-    """Without case and accents, so that `age` finds `âge`."""
+    """Return a text without case and accents, so that `age` finds `âge`."""
     apart = unicodedata.normalize("NFKD", text.casefold())
     return "".join(c for c in apart if not unicodedata.combining(c))

@@ -1,4 +1,4 @@
-"""What was typed in a session, as a file that gives the same again."""
+"""The typed input of a session as a file, which gives the same results again."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ from azee_grammar.syntax import (
 def save_text(session: Session, path: Path) -> None:
     """Write the libraries, the rules and the last expression that were typed.
 
-    Raises: Refusal: the last expression needs a result that no file has. AZeeError: cannot-write.
+    Raises: Refusal: the last expression needs a result that no file contains. AZeeError:
+        cannot-write.
     """
     from azee.export.files import replace_file
 

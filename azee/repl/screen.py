@@ -1,4 +1,4 @@
-"""Where a session writes to: lines for people, diagnostics as `azee check` shows them."""
+"""The output of a session: lines for people, diagnostics as `azee check` shows them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from azee_grammar.render import render
 
 @dataclass(frozen=True)
 class Screen:
-    """Results go to `put`, what is wrong to `put_wrong`; both take text for a terminal."""
+    """Results go to `put`, mistakes to `put_wrong`; both take text for a terminal."""
 
     put: Callable[[str], None]
     put_wrong: Callable[[str], None]
@@ -23,12 +23,12 @@ class Screen:
 
     @property
     def columns(self) -> int:
-        """How wide results may be."""
+        """The most columns of a result."""
         return self.fixed_columns or min(shutil.get_terminal_size().columns, 160) - 1
 
     @property
     def rows(self) -> int:
-        """How high a result may be that is to be seen at a glance."""
+        """The most rows of a result that should fit on the screen."""
         return max(8, shutil.get_terminal_size().lines - 4)
 
     def show(self, lines: Iterable[Line]) -> None:
@@ -45,7 +45,7 @@ class Screen:
             self.put_wrong(render(diagnostic, colour=self.colour).rstrip("\n") + "\n\n")
 
     def refuse(self, message: str, hint: str | None = None) -> None:
-        """Tell what a command cannot do."""
+        """Report why a command is impossible."""
         lines: list[Line] = [((Ink.BAD, "error"), (Ink.STRONG, f": {message}"))]
         if hint:
             lines.append(((Ink.NAME, "help"), (Ink.PLAIN, f": {hint}")))

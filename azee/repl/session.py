@@ -1,4 +1,4 @@
-"""What a session knows: rules that were typed or loaded, and the results so far."""
+"""The state of a session: rules that were typed or loaded, and the results so far."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ LAST = "_"
 
 @dataclass(frozen=True, slots=True)
 class Evaluated:
-    """An expression, as it was written and as it was read, and its value."""
+    """An expression, as written and as parsed, and its value."""
 
     text: str
     expr: Expr
@@ -35,7 +35,7 @@ class Evaluated:
 
 @dataclass(frozen=True, slots=True)
 class Defined:
-    """A rule was defined, perhaps in the place of another, perhaps with mistakes."""
+    """A rule was defined; it may replace another rule and may have mistakes."""
 
     name: str
     again: bool
@@ -44,7 +44,7 @@ class Defined:
 
 @dataclass(frozen=True, slots=True)
 class Used:
-    """A library was brought into scope."""
+    """A library is now in scope."""
 
     name: str
 
@@ -58,7 +58,7 @@ class Failed:
 
 @dataclass(frozen=True, slots=True)
 class Reloaded:
-    """Files changed; with mistakes in them, the versions before stay in use."""
+    """Files changed; if they have mistakes, the versions before stay in use."""
 
     paths: tuple[Path, ...]
     mistakes: tuple[Diagnostic, ...]
@@ -68,14 +68,14 @@ Outcome = Evaluated | Defined | Used | Failed
 
 
 class Session:
-    """Evaluates what is typed, in the scope of all that was typed and loaded before."""
+    """Evaluates typed input, with everything in scope that was typed and loaded before."""
 
     def __init__(self, folders: Sequence[Path] = ()) -> None:
         self.shelf = Shelf(tuple(folders))
         self.uses: dict[str, Use] = {}
         self.definitions: dict[str, Definition] = {}
         self.texts: dict[str, str] = {}
-        """Of the definitions, as they were written."""
+        """Texts of the definitions, as they were written."""
         self.files: list[Path] = []
         self.last: Evaluated | None = None
         self._count = 0
@@ -84,7 +84,7 @@ class Session:
 
     @property
     def knowledge(self) -> Knowledge:
-        """The names that mean something at the prompt."""
+        """The names that have a meaning at the prompt."""
         return Knowledge(self.program.scope, self.shelf.folders)
 
     @property
@@ -93,9 +93,9 @@ class Session:
         return {LAST: self.last.value} if self.last else {}
 
     def enter(self, text: str) -> Iterator[Outcome]:
-        """Take in what was typed, item by item.
+        """Take typed input, item by item.
 
-        An interruption leaves the session as it was before the item.
+        After an interruption, the session is as it was before the item.
         """
         self._count += 1
         source = Source(f"<input {self._count}>", textwrap.dedent(text))
@@ -113,7 +113,7 @@ class Session:
                     raise
 
     def load(self, path: Path) -> tuple[Diagnostic, ...]:
-        """Take in the rules of a file, now and whenever it changes; return what is wrong.
+        """Take the rules of a file, now and whenever it changes; return its mistakes.
 
         Raises: AZeeError: it cannot be read.
         """
@@ -129,7 +129,7 @@ class Session:
     def refresh(self) -> Reloaded | None:
         """Read the files that have changed, unless that was tried already.
 
-        If that brings mistakes, what was right before stays in use.
+        If they have mistakes, the versions before stay in use.
         """
         changed = self.shelf.changed()
         if not changed:
@@ -148,7 +148,7 @@ class Session:
         return Reloaded(changed, mistakes)
 
     def reload(self) -> Reloaded:
-        """Read every file again, changed or not; mistakes are told again."""
+        """Read every file again, changed or not; mistakes are reported again."""
         self._refused = ()
         return self.refresh() or Reloaded((), mistakes_in_files(self.program))
 
@@ -194,7 +194,7 @@ def _state(path: Path) -> object:
 
 
 def _written(source: Source, item: Item) -> str:
-    """Return the text of an item; its own span leaves out parentheses around expressions."""
+    """Return the text of an item with the parentheses around it, which its span leaves out."""
     for layout in LayoutReader(source).items():
         start, end = layout.tokens[0].start, max(token.end for token in layout.tokens)
         if start <= item.span.start < end:

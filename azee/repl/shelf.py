@@ -14,10 +14,10 @@ Stamp = tuple[int, int]
 
 @dataclass(slots=True, eq=False)
 class Shelf:
-    """Texts by path, with the time and size that tell whether the file has changed since.
+    """Texts by path, with time and size, which show whether the file has changed since.
 
-    A text stays as it was read for as long as the shelf is used, so that a session can go on with
-    the last version that was right. Of folders that hold rules, the names of the texts are noted.
+    A text stays as it was read while the shelf is used, so that a session can use the last version
+    without mistakes. For folders with rules, the names of the texts are stored.
     """
 
     folders: tuple[Path, ...] = ()
@@ -38,13 +38,13 @@ class Shelf:
         return self._sources[path]
 
     def changed(self) -> tuple[Path, ...]:
-        """Return the files that are other than they were, and folders that hold other files."""
+        """Return the files that have changed, and the folders whose files are others now."""
         files = (path for path, stamp in self._stamps.items() if _stamp(path) != stamp)
         folders = (path for path, names in self._listings.items() if _listing(path) != names)
         return (*files, *folders)
 
     def renewed(self) -> Shelf:
-        """Return a shelf for another reading, on which what has not changed stands already."""
+        """Return a shelf for another reading, which already has the unchanged texts."""
         shelf = Shelf(self.folders)
         changed = set(self.changed())
         for path, source in self._sources.items():

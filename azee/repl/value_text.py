@@ -1,4 +1,4 @@
-"""A value in lines for people, each kind in its own way."""
+"""Shows values in lines for people, each kind in its own way."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ MOST_LINES = 40
 
 
 def value_lines(value: Value, columns: int, *, colour: bool) -> Iterator[Line]:
-    """Show a value: a score as a diagram, geometry with what it depends on."""
+    """Show a value: a score as a diagram, geometry with the parts of the body it depends on."""
     match value:
         case ScoreValue(content=score):
             yield from diagram(score, columns, colour=colour)
@@ -76,7 +76,7 @@ def value_lines(value: Value, columns: int, *, colour: bool) -> Iterator[Line]:
 
 
 def short(value: Value) -> str:
-    """Return a value on one line, as AZee writes it where it can."""
+    """Return a value on one line, in AZee's notation where possible."""
     match value:
         case NumberValue(content=number):
             return f"{number:.15g}"
@@ -125,7 +125,7 @@ def _operator(operator: Applicable) -> Iterator[Line]:
 
 
 def _dependence(content: object) -> Iterator[Line]:
-    """Tell which parts of the body it takes a posture to know."""
+    """Describe the parts of the body whose posture determines it."""
     parts = dict.fromkeys(_parts(content))
     if not parts:
         yield ((Ink.FAINT, "depends on nothing: the same in every posture"),)

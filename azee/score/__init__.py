@@ -1,1 +1,1 @@
-"""Nested timed scores: what an AZee expression evaluates to."""
+"""Nested timed scores, the values of AZee utterances."""

@@ -1,6 +1,7 @@
-"""When the blocks of a `sync` start and end, from bounds that name each other.
+"""Computes when the blocks of a `sync` start and end, from bounds that name each other.
 
-The dependency graph is over bounds, not blocks: `A` may start with `B` while `B` ends with `A`.
+The nodes of the dependency graph are bounds, not blocks: `A` may start with `B` while `B` ends with
+`A`.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ from azee.score.stretch import stretched
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """Where a block stands: its start, its end, its length; what is not said is natural.
+    """The placement of a block: its start, end and length; missing values are natural.
 
-    With both bounds, or with a length, the block is stretched. With nothing it starts at zero.
+    With both bounds, or with a length, the block is stretched. With neither it starts at zero.
     """
 
     start: Moment | None = None
@@ -40,12 +41,12 @@ class Placement:
 _Node = tuple[int, Bound]
 
 _MOST_NAMED = 12
-"""Of a longer circle, the first and the last bounds are named."""
+"""How many bounds of a long cycle are named, at its beginning and at its end."""
 """A bound of the block with that number."""
 
 
 class Bounds:
-    """The bounds of named blocks, computed on task and each once."""
+    """The bounds of named blocks, computed on demand and each once."""
 
     def __init__(
         self, names: Sequence[str], scores: Sequence[Score], placements: Sequence[Placement]
@@ -58,7 +59,7 @@ class Bounds:
         self._fitted: dict[int, Score] = {}
 
     def interval(self, block: int) -> Interval:
-        """Return when a block lasts, on the time line on which the first block starts at zero."""
+        """Return the interval of a block; the first block starts at zero."""
         start = self._bound((block, Bound.START))
         end = self._bound((block, Bound.END))
         if end < start:
@@ -70,7 +71,7 @@ class Bounds:
         return Interval(start, end)
 
     def score(self, block: int) -> Score:
-        """Return a block's score at the length that its bounds leave it."""
+        """Return a block's score, stretched to the length between its bounds."""
         if block not in self._fitted:
             duration_s = self.interval(block).duration
             try:
@@ -81,7 +82,7 @@ class Bounds:
         return self._fitted[block]
 
     def _bound(self, wanted: _Node) -> Fraction:
-        """Depth-first over what a bound depends on, with a stack of our own: chains are long."""
+        """Compute depth-first what a bound depends on, with a stack of our own: chains are long."""
         pending = [wanted]
         waiting: dict[_Node, None] = {}
         while pending:
@@ -135,7 +136,7 @@ class Bounds:
         return node[1] is Bound.START and self._placements[node[0]].end is None
 
     def _target(self, moment: Moment, node: _Node) -> int:
-        """Return the number of the block that the moment of a bound names."""
+        """Return the number of the block that a bound refers to."""
         name = moment.path[0]
         if name not in self._number:
             raise self._unknown(f"there is no block `{name}`", name, self._names, node)
@@ -163,7 +164,7 @@ class Bounds:
         return time + moment.offset_s
 
     def _inner(self, moment: Moment, score: Score, start: Fraction, node: _Node) -> Interval:
-        """Return when a block inside lasts, on the time line of the whole `sync`."""
+        """Return the interval of an inner block, on the time line of the whole `sync`."""
         outer = moment.path[0]
         interval = Interval(start, start + score.duration)
         for name in moment.path[1:]:

@@ -1,4 +1,4 @@
-"""Why blocks cannot be laid out."""
+"""The error of blocks that cannot be laid out."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from azee.score.moment import Bound
 
 
 class LayoutError(Exception):
-    """Blocks that cannot be laid out as asked.
+    """Blocks that cannot be laid out.
 
-    `code` is the stable name of the mistake (docs/language), `part` the number of the block at
-    fault in the order of writing, from 0, or None where the score itself is. Where a name means
-    nothing, `name` is that name, `known` are those that would have been valid, and `bound` says
-    which bound of the block names it, None if it is a hold.
+    `code` is the stable name of the mistake (docs/language). `part` is the number of the block at
+    fault in the order of writing, from 0, or None if the score itself is at fault. For an unknown
+    name, `name` is that name, `known` are the valid names, and `bound` is the bound of the block
+    that uses it, None for a hold.
     """
 
     def __init__(

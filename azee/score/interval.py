@@ -8,7 +8,7 @@ from fractions import Fraction
 
 @dataclass(frozen=True, slots=True, order=True)
 class Interval:
-    """`[start, end)` in seconds, exact. The frame is named where an interval is kept."""
+    """`[start, end)` in seconds, exact. The owner of an interval documents its frame."""
 
     start: Fraction
     end: Fraction

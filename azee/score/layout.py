@@ -1,4 +1,4 @@
-"""Laying out blocks: `sync`, `seq` and `hold`, from parts to a group with exact times."""
+"""Lays out the blocks of `sync`, `seq` and `hold`: from parts to a group with exact times."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _ZERO = Fraction(0)
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A block before it has its place."""
+    """A block before it has a place on the time line."""
 
     name: str
     score: Score
@@ -28,11 +28,11 @@ class Part:
 def synchronised(parts: Sequence[Part]) -> Group:
     """Lay out the blocks of a `sync`.
 
-    The first part stands at zero with its natural length; the others stand where their placement
-    says, in any order of reference. The group starts with its earliest block, wherever zero lay.
+    The first part starts at zero with its natural length. The others are placed by their placement,
+    in any order of reference. The group starts with its earliest block, which may be before zero.
 
     Raises: LayoutError: `unknown-block`, `duplicate-block`, `cyclic-sync`, `negative-duration`,
-    `cannot-stretch`, `size-limit`.
+        `cannot-stretch`, `size-limit`.
     """
     _require_distinct(parts)
     _require_holdable(parts)
@@ -72,7 +72,7 @@ def in_sequence(scores: Sequence[Score], gap_s: Fraction) -> Group:
 
 
 def held(score: Score, duration_s: Fraction, channels: tuple[str, ...]) -> Group:
-    """Lay out the score, then what it had reached at its end, kept for `duration_s`."""
+    """Lay out the score, and after it a hold of its end for `duration_s`."""
     end = score.duration + duration_s
     require_measurable(end, None)
     kept = Hold(duration_s, block="SIG", channels=channels)
@@ -84,7 +84,7 @@ def held(score: Score, duration_s: Fraction, channels: tuple[str, ...]) -> Group
 
 
 def require_measurable(time: Fraction, part: int | None) -> None:
-    """Refuse times beyond a day and times whose exact value has become unwieldy."""
+    """Refuse times beyond a day and fractions whose exact value has become too long."""
     if time > LONGEST_S:
         raise LayoutError("size-limit", "a score lasts longer than a day", part)
     if time.denominator.bit_length() > _MOST_BITS:
@@ -100,7 +100,7 @@ def _require_distinct(parts: Sequence[Part]) -> None:
 
 
 def _require_holdable(parts: Sequence[Part]) -> None:
-    """Every hold names a sibling, and none holds itself by way of others."""
+    """Check that every hold names a sibling, and that none holds itself through others."""
     holds = {p.name: p.score.block for p in parts if isinstance(p.score, Hold)}
     names = {p.name for p in parts}
     for i, part in enumerate(parts):

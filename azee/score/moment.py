@@ -34,7 +34,7 @@ class Moment:
 
 
 class MomentError(ValueError):
-    """A ref that does not read; `str()` says why in the user's terms."""
+    """A ref with a wrong form; `str()` says why in the user's terms."""
 
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)")
@@ -44,7 +44,7 @@ _LONGEST = 17
 def parse_moment(text: str) -> Moment:
     """Read `BLOCK:start`, `BLOCK:end:-.25`, `BLOCK:.5` or `INFO/SIG:start`.
 
-    Raises: MomentError: the text has another shape.
+    Raises: MomentError: the text has another form.
     """
     block, *parts = text.split(":")
     path = tuple(block.split("/"))

@@ -1,8 +1,8 @@
-"""Scores: what AZee expressions evaluate to. Nested, exactly timed, independent of any rig.
+"""Scores, the values of AZee utterances: nested, exactly timed, independent of any rig.
 
-A leaf says what the body does for a while: `Key` holds a set of constraints, `Hold` keeps what
-another block reached, `Blank` asks for nothing. A `Group` places named blocks on its own time
-line, which starts at zero with its earliest block and ends with its latest.
+A leaf says what the body does for a while. A `Key` has a set of constraints, a `Hold` keeps what
+another block reached, and a `Blank` has no constraints. A `Group` places named blocks on its own
+time line, which starts at zero with its earliest block and ends with its latest.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class _Score:
     calls: tuple[Call, ...] = field(default=(), kw_only=True)
     """Rules whose result this score is, outermost first; empty for a score built in place."""
     fixed: bool = field(default=False, kw_only=True)
-    """Keeps its length when what it stands in is stretched."""
+    """Whether it keeps its length when the score around it is stretched."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,11 +57,11 @@ CHANNELS = ("hands", "face", "head", "trunk", "eyes")
 
 @dataclass(frozen=True, slots=True)
 class Blank(_Score):
-    """Asks for nothing."""
+    """A score without constraints."""
 
 
 class Arrangement(Enum):
-    """How a group's blocks were laid out; their intervals are exact either way."""
+    """How a group's blocks were laid out; their intervals are exact in either case."""
 
     SYNC = "sync"
     SEQ = "seq"
@@ -69,7 +69,7 @@ class Arrangement(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A named score at its place on the time line of its group."""
+    """A named score at a place on the time line of its group."""
 
     name: str
     interval_in_parent: Interval
@@ -126,7 +126,7 @@ class Leaf:
     """On the time line of the whole score."""
     score: Key | Hold | Blank
     parents: tuple[Group, ...]
-    """The groups it stands in, outermost first, one per name in `path`."""
+    """The groups around it, outermost first, one per name in `path`."""
 
 
 def leaves(score: Score) -> Iterator[Leaf]:

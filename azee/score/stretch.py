@@ -1,9 +1,8 @@
-"""Stretching: one score, another length.
+"""Stretches a score to another length.
 
-Stretching multiplies every time inside a score by the same factor, offsets included. What is
-`fixed` inside keeps its length: the time line of the whole is then warped with slope 1 wherever
-something fixed lasts and with one common slope elsewhere. So the whole has the length that was
-asked for, and order and coincidences are kept through all levels.
+Stretching multiplies every time inside a score by the same factor, offsets included. A `fixed` part
+keeps its length: the time line of the whole has slope 1 while a fixed part lasts, and one common
+slope elsewhere. So the whole has the new length, and order and coincidences are kept on all levels.
 """
 
 from __future__ import annotations
@@ -25,8 +24,8 @@ _ZERO = Fraction(0)
 def stretched(score: Score, duration_s: Fraction) -> Score:
     """Return the score with another length.
 
-    Raises: LayoutError: `cannot-stretch`, where the score is fixed, has blocks but no length, or
-    is asked to be shorter than what is fixed in it.
+    Raises: LayoutError: `cannot-stretch`, if the score is fixed, has blocks but no length, or would
+        become shorter than its fixed parts.
     """
     if duration_s == score.duration:
         return score

@@ -1,1 +1,1 @@
-"""A movement as data: clips, their files, recordings, and what is done to one."""
+"""A movement as data: clips, their files, recordings, and operations on them."""

@@ -1,6 +1,6 @@
-"""Clips on disk: a NumPy archive that holds numbers and names and can hold nothing else.
+"""Clips on disk: a NumPy archive with numbers and names, which cannot contain code.
 
-`coordinates` are stored with their names, so that a clip outlives a change of their order.
+`coordinates` are stored with their names, so that a clip stays readable if their order changes.
 docs/formats.md describes the file.
 """
 
@@ -35,15 +35,15 @@ UNREADABLE = (
     zlib.error,
     struct.error,
 )
-"""What NumPy and zipfile raise over a file that is no archive, or a broken one."""
+"""Exceptions of NumPy and zipfile for a file that is not an archive, or is damaged."""
 
 
 class ClipFileError(ValueError):
-    """A file that is no clip, is damaged, or is one of a body that has other coordinates."""
+    """A file is not a clip, is damaged, or belongs to a body with other coordinates."""
 
 
 class OtherBodyError(ClipFileError):
-    """A clip moves what the body that is to play it does not have."""
+    """A clip moves parts that the chosen body does not have."""
 
 
 def write_clip(clip: Clip, rig: Rig, file: IO[bytes]) -> None:
@@ -73,9 +73,9 @@ def write_clip(clip: Clip, rig: Rig, file: IO[bytes]) -> None:
 
 
 def read_clip(path: str | Path, rig: Rig) -> Clip:
-    """Read a clip for a body; coordinates that the file does not name rest.
+    """Read a clip for a body; coordinates that the file does not have stay at idle.
 
-    Raises: ClipFileError: what is there is no clip, or none for this body. OSError.
+    Raises: ClipFileError: the file is not a clip, or not one of this body. OSError.
     """
     header, arrays = _read(path)
     try:
@@ -109,7 +109,7 @@ def read_clip(path: str | Path, rig: Rig) -> Clip:
 
 
 def _label(path: list[str], start_s: float, end_s: float) -> Label:
-    """Return a stored label. Raises: ValueError: it is none."""
+    """Return a stored label. Raises: ValueError: it is not one."""
     named = path and all(isinstance(name, str) for name in path)
     if not (named and math.isfinite(start_s) and start_s <= end_s < math.inf):
         raise ValueError("a label without a name or a time")
@@ -117,14 +117,14 @@ def _label(path: list[str], start_s: float, end_s: float) -> Label:
 
 
 def rig_of(path: str | Path) -> str:
-    """Name of the rig that a clip was made for. Raises: ClipFileError, OSError."""
+    """Return the name of the rig that a clip was made for. Raises: ClipFileError, OSError."""
     return str(_read(path)[0].get("rig", ""))
 
 
 def _read(path: str | Path) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return header and arrays of a file that says it is a clip.
+    """Return header and arrays of a file whose header says that it is a clip.
 
-    A plain .npy is no context manager and none of ours: its TypeError is one of `UNREADABLE`.
+    A plain .npy is not a context manager and not a clip: its TypeError is one of `UNREADABLE`.
     """
     try:
         with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as packed:

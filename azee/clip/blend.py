@@ -1,20 +1,20 @@
-"""Clips one after the other, the decay of each blended with the attack of the next.
+"""Joins clips: the decay of each is blended with the attack of the next.
 
 Gürel 2010, §4.1.3: signs S₁ … Sₘ of durations D₁ … Dₘ begin and end with an attack and a decay of
-one length a, in which nothing is said. Sign n + 1 starts when the decay of sign n does, at
+the same length a, outside of their meaning. Sign n + 1 starts with the decay of sign n, at
 
     E′ₙ = Σᵢ₌₁ⁿ (Dᵢ − a)
 
-and in between the two are averaged on the vector of parameters, with weights that sum to 1:
+In between, the two are averaged on the vector of parameters, with weights that sum to 1:
 
     T′(t) = (E′ₙ + a − t)/a · Sₙ(t − E′ₙ₋₁) + (t − E′ₙ)/a · Sₙ₊₁(t − E′ₙ),  E′ₙ < t < E′ₙ + a
 
-The thesis prints E′ₙ without brackets. With a taken off once only, T′ would ask every sign but
-the first for what lies up to a beyond its end; so the sum is over Dᵢ − a.
+The thesis prints E′ₙ without brackets. If a is subtracted only once, T′ samples every sign except
+the first up to a beyond its end; so the sum is over Dᵢ − a (ADR 35).
 
-`linear` is T′ exactly; its speed jumps at both ends of a blend, which makes a signer look as if she
-had changed her mind (§5.1.3). `smooth` puts minimum jerk in the place of the linear weight: its
-first and second derivatives are zero at both ends, so that T′ is C² wherever the signs are.
+`linear` is T′ exactly; its speed jumps at both ends of a blend (§5.1.3). `smooth` replaces the
+linear weight by minimum jerk. Its first and second derivatives are zero at both ends, so that T′ is
+C².
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ Array = NDArray[np.float64]
 Blend = Literal["linear", "smooth"]
 
 ROOT = 6
-"""Parameters of a root joint: its place and its turn."""
+"""Number of parameters of a root joint: its place and its turn."""
 
 
 def repositioned(parameters: ArrayLike) -> Array:
     """Return motion (…, P) with its first six parameters zero: the root's place and turn.
 
-    So the signer stands at the origin, faces +Z, and does not float while signs are blended; what
-    the limbs do stays (Gürel 2010, §3.2.3). A `Clip` has no root and needs it not.
+    So the signer stands at the origin, faces +Z, and does not float while signs are blended; the
+    movement of the limbs stays (Gürel 2010, §3.2.3). A `Clip` has no root and does not need this.
     """
     out = np.array(parameters, dtype=np.float64)
     out[..., :ROOT] = 0.0
@@ -55,8 +55,8 @@ def repositioned(parameters: ArrayLike) -> Array:
 class Concatenation:
     """T′(t) of some clips: a movement that can be sampled at any time from 0 to `duration_s`.
 
-    clips: at least one; all count their time from 0. overlap_s: a, the length of attacks and
-    decays; 0 sets the clips end to end.
+    clips: at least one; the times of all count from 0.
+    overlap_s: a, the length of attacks and decays; 0 sets the clips end to end.
     """
 
     clips: tuple[Clip, ...]
@@ -84,13 +84,13 @@ class Concatenation:
 
     @property
     def starts_s(self) -> tuple[float, ...]:
-        """When each clip starts: 0, E′₁, …, E′ₘ₋₁."""
+        """Start times of the clips: 0, E′₁, …, E′ₘ₋₁."""
         lengths = [clip.duration_s - self.overlap_s for clip in self.clips[:-1]]
         return tuple(float(e) for e in np.cumsum([0.0, *lengths]))
 
     @property
     def duration_s(self) -> float:
-        """When the last clip ends: E′ₘ + a."""
+        """End of the last clip: E′ₘ + a."""
         return self.starts_s[-1] + self.clips[-1].duration_s
 
     @property
@@ -132,7 +132,7 @@ class Concatenation:
         )
 
     def _weight(self, since: Array) -> Array:
-        """Weight of a clip so many seconds after its start, before its own decay; 1 from a on."""
+        """Return the weight of a clip at a time after its start, before its decay; 1 from a on."""
         if self.overlap_s == 0.0:
             return np.where(since >= 0.0, 1.0, 0.0)
         share = np.clip(since / self.overlap_s, 0.0, 1.0)
@@ -154,11 +154,10 @@ def joined(
     blend: Blend = "smooth",
     fps: float | None = None,
 ) -> Clip:
-    """Return clips as one, from 0 on.
+    """Return clips joined to one, from 0 on.
 
-    Args: fps: of the result; by default the frames are those that the clips have, and where two
-        overlap those of both.
-    Raises: ValueError: nothing to join, or a clip is shorter than its blends.
+    Args: fps: of the result; by default the frames of the clips, and in an overlap those of both.
+    Raises: ValueError: there is nothing to join, or a clip is shorter than its blends.
     """
     whole = Concatenation(tuple(clips), coordinates, overlap_s, blend)
     if fps is not None:
@@ -170,7 +169,7 @@ def joined(
 
 
 def common_rate(clips: Sequence[Clip]) -> float | None:
-    """Frames per second that all clips have, None if they differ or none has any."""
+    """Return the frames per second of all clips, None if they differ or none has any."""
     rates = [rate(clip) for clip in clips if len(clip.times) > 1]
     if not rates or any(r is None for r in rates):
         return None

@@ -1,4 +1,4 @@
-"""A clip out of a recording of the rig's own skeleton: exactly, but for what files round.
+"""A clip from a recording of the rig's own skeleton, exact except for the rounding of files.
 
 The rig's BVH files say every joint's rotation to a millionth of a degree. The coordinates behind
 them are those of which these are the rotations (`azee_rig.recover`). The root's place and turn are
@@ -34,10 +34,10 @@ def is_own(recording: Recording, rig: Rig) -> bool:
 
 
 def own_clip(recording: Recording, rig: Rig) -> tuple[Clip, float]:
-    """Return a recording of the rig's own skeleton as a clip, and what it misses, radians.
+    """Return a recording of the rig's own skeleton as a clip, and the largest error, radians.
 
-    What the body cannot do, because the file was edited elsewhere, comes as near as the limits
-    allow: the number is the worst turn of any joint in any frame.
+    If the file was edited elsewhere, it may have postures that the body cannot take. The clip comes
+    as near as the limits allow; the error is the worst turn of any joint in any frame.
 
     Raises: ValueError: it is a recording of another skeleton.
     """
@@ -50,7 +50,7 @@ def own_clip(recording: Recording, rig: Rig) -> tuple[Clip, float]:
 
 
 def _order(recording: Recording, rig: Rig) -> list[int] | None:
-    """Index of each of the rig's joints in the recording; None where one is missing."""
+    """Return the index of each of the rig's joints in the recording, or None if one is missing."""
     there = {_plain(name): i for i, name in enumerate(recording.skeleton.names)}
     names = [_plain(name) for name in rig.skeleton.names]
     if len(there) != len(recording.skeleton.names) or len(set(names)) != len(names):
@@ -59,5 +59,5 @@ def _order(recording: Recording, rig: Rig) -> list[int] | None:
 
 
 def _plain(name: str) -> str:
-    """Return a name as BVH may hold it: letters, digits and underscores."""
+    """Return a name in the form that BVH allows: letters, digits and underscores."""
     return re.sub(r"[^A-Za-z0-9_]", "_", name)

@@ -1,4 +1,4 @@
-"""A clip at other times than its frames: the C² spline through them, inside the limits."""
+"""Samples a clip at other times: the C² spline through its frames, within the limits."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from azee_rig.coordinates import Coordinates
 Array = NDArray[np.float64]
 
 EVEN_S = 1e-6
-"""Up to which difference of lengths frames count as evenly spaced."""
+"""Up to this difference of lengths, frames count as evenly spaced."""
 MOST_FRAMES = 500_000
-"""More than four hours at 30 frames a second: what has more comes of a mistake."""
+"""More than four hours at 30 frames a second: a larger number is a mistake."""
 
 
 class TooManyFramesError(ValueError):
-    """A clip that no machine would hold."""
+    """A clip with too many frames."""
 
 
 def sampled(clip: Clip, times: ArrayLike, coordinates: Coordinates) -> Clip:
-    """Return the clip at other times, (T,) increasing; its frames are met exactly.
+    """Return the clip at other times, (T,) increasing; the spline passes through its frames.
 
-    Between frames runs a cubic spline. What it overshoots is clamped to the limits, and weights of
-    the face to the least and the largest they have. Before the first and after the last frame the
+    Between frames there is a cubic spline. Where it overshoots, it is clamped to the limits, and
+    face weights to their least and largest values. Before the first and after the last frame the
     clip stands still. Labels stay.
     """
     at = np.asarray(times, dtype=np.float64)
@@ -52,8 +52,8 @@ def sampled(clip: Clip, times: ArrayLike, coordinates: Coordinates) -> Clip:
 def at_rate(clip: Clip, fps: float, coordinates: Coordinates) -> Clip:
     """Return the clip with evenly spaced frames, from its first time on.
 
-    The last frame is the last that the clip's own length holds.
-    Raises: ValueError: no such rate. TooManyFramesError: more than `MOST_FRAMES`.
+    The last frame is the last one within the clip's own length.
+    Raises: ValueError: the rate is not positive. TooManyFramesError: more than `MOST_FRAMES`.
     """
     if not (np.isfinite(fps) and fps > 0):
         raise ValueError(f"{fps} frames per second make no clip")
@@ -63,7 +63,7 @@ def at_rate(clip: Clip, fps: float, coordinates: Coordinates) -> Clip:
 
 
 def frame_count(duration_s: float, fps: float) -> int:
-    """Return how many frames a length holds. Raises: TooManyFramesError: too many."""
+    """Return the number of frames within a length. Raises: TooManyFramesError: too many."""
     frames = np.floor(duration_s * fps + fps * EVEN_S) + 1
     if not frames <= MOST_FRAMES:
         raise TooManyFramesError(

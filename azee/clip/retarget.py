@@ -1,12 +1,12 @@
-"""Motion of one body on another: hands where they were, palms as they were turned.
+"""Motion of one body on another: the places of hands and the directions of palms are kept.
 
-Angles do not carry over between bodies: arms of other lengths miss what they touched. What is kept
-here is measured on the source, in the frame of its chest: where the wrists are from the middle of
-the shoulders, in arm lengths, so that hands that met still meet; how the palms are turned; roughly
-where the elbows are; how every finger bends. Trunk, neck and head turn as the source's do.
+Angles cannot be copied between bodies: arms of other lengths miss what they touched. So the source
+is measured in the frame of its chest: the wrists from the middle of the shoulders, in arm lengths,
+so that hands that touch still touch; the orientation of the palms; roughly the elbows; the bending
+of every finger. Trunk, neck and head turn as those of the source.
 
-Postures of all frames are found together by damped Gauss–Newton inside the limits, first each for
-itself, then held to the smoothed way of the first: what leaves a choice does not jump.
+Damped Gauss–Newton within the limits finds the postures of all frames together: first each frame by
+itself, then close to the smoothed result, so that free coordinates do not jump.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ ARM = (
 )  # fmt: skip
 """Coordinates of an arm."""
 WRIST_M, PALM_RAD, ELBOW_M, WISH_RAD = 0.004, np.radians(1.0), 0.15, np.radians(60.0)
-"""What weighs as much as each other: off in place, in turn, at the elbow, from the wish."""
+"""Scales of equal weight: errors of place, of turn, of the elbow, and of the wanted posture."""
 HASTE_RAD = np.radians(1.0)
 """A turn from one frame to the next that weighs as much, where there is a choice of ways."""
 PRONATION = ARM.index("f_arm_{S}.pronation")
@@ -42,12 +42,12 @@ SWEEPS, STEP_RAD = 40, 1e-6
 FASTEST_RAD_S = 25.0
 """Faster turns, 1,430°/s, are jumps: about the largest measured of an elbow (docs/motion.md)."""
 SMOOTH_S = 0.15
-"""Half the window over which the way of the first solution is smoothed."""
+"""Half the window for smoothing the first solution."""
 
 
 @dataclass(frozen=True, eq=False)
 class Retargeted:
-    """A clip on the new body, and what could not be kept, per frame and side (L, R).
+    """A clip on the new body, and the remaining errors, per frame and side (L, R).
 
     wrist_m: (T, 2) metres off on the new body. palm_rad: (T, 2) turn of the palm that is off.
     """
@@ -91,7 +91,7 @@ def retarget(source: Measured, rig: Rig) -> Retargeted:
 
 
 class _Arms:
-    """Wishes for both arms of a body, in all frames."""
+    """Targets for both arms of a body, in all frames."""
 
     def __init__(self, rig: Rig, source: Measured, q: Floats) -> None:
         self.rig = rig
@@ -147,9 +147,9 @@ class _Arms:
         return q
 
     def starts(self, q: Floats) -> list[Floats]:
-        """Postures (T, V) to start from: those given, and forearms turned out and in.
+        """Return start postures (T, V): the given ones, and ones with forearms turned out and in.
 
-        Where a palm is turned further than the forearm goes, both its limits are as good.
+        If a palm is turned further than the forearm can turn, both limits of it are equally good.
         """
         c = self.rig.coordinates
         found = [q]
@@ -162,9 +162,9 @@ class _Arms:
         return found
 
     def steadiest(self, ways: Sequence[Floats], wish: Floats) -> Floats:
-        """Of several ways (T, V), per arm, the one with the least sum of misses and haste.
+        """Of several solutions (T, V), return per arm that with the least errors and speed.
 
-        It may change between them where they are near each other: a shortest path over frames.
+        It may change between solutions where they are near each other: a shortest path over frames.
         """
         out = ways[0].copy()
         cost = np.stack([self._residual(q, wish)[0] for q in ways])
@@ -184,18 +184,18 @@ class _Arms:
         return out
 
     def off(self, q: Floats) -> tuple[Floats, Floats]:
-        """How far wrists and palms are off, (T, 2) each."""
+        """Return the errors of wrists and palms, (T, 2) each."""
         at = self.chain.frames(q)
         wrists = at.positions[:, self.nodes["palm"]] - self.wrists
         return np.linalg.norm(wrists, axis=-1), np.linalg.norm(self._turned(at), axis=-1)
 
     def _turned(self, at: Frames) -> Floats:
-        """Rotation vectors from the palms as they are to as they should be, (…, 2, 3)."""
+        """Return rotation vectors from the present palms to the wanted ones, (…, 2, 3)."""
         R = self.turns @ np.swapaxes(at.rotations[..., self.palms, :, :], -1, -2)
         return rotation_vectors(R)
 
     def _residual(self, q: Floats, wish: Floats) -> tuple[Floats, Floats]:
-        """Return sums of squares (…, T, 2), and what they sum, (…, T, 2, 18)."""
+        """Return sums of squares (…, T, 2), and their terms, (…, T, 2, 18)."""
         at = self.chain.frames(q)
         parts = [
             (at.positions[..., self.nodes["palm"], :] - self.wrists) / WRIST_M,

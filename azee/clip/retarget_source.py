@@ -32,11 +32,11 @@ HEAD_SHARE = {"neck": 0.5, "head": 0.5}
 UPRIGHT_DEG = 20.0
 """A figure that leans less stands straight along an axis of its file."""
 TURNS = {"flexion": (0, 1.0), "axial": (1, 1.0), "lateral": (2, -1.0)}
-"""Component and sign of a rotation vector (left, up, forward) that each coordinate is."""
+"""Component and sign of a rotation vector (left, up, forward) for each coordinate."""
 
 
 class RetargetError(Exception):
-    """Motion whose skeleton has no arms that can be told. The message is for the user."""
+    """Motion of a skeleton without recognisable arms. The message is for the user."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ class Measured:
 
 
 def measure_clip(clip: Clip, rig: Rig) -> Measured:
-    """Measure a clip on the rig that it is for."""
+    """Measure a clip on its rig."""
     c = rig.coordinates
     at = rig.chain.frames(clip.coordinates)
     chest = rig.bones["back_2"].node
@@ -93,9 +93,9 @@ def measure_clip(clip: Clip, rig: Rig) -> Measured:
 
 
 def measure_recording(recording: Recording) -> Measured:
-    """Measure motion on any skeleton with two arms.
+    """Measure motion of any skeleton with two arms.
 
-    Raises: RetargetError: the arms cannot be told.
+    Raises: RetargetError: the arms cannot be recognised.
     """
     places, turned = recording.frames()
     skeleton = recording.skeleton
@@ -116,7 +116,7 @@ class _Reader:
         self.notes = [*recording.notes]
         upright = self._upright()
         self.still = recording.skeleton.rest_positions if upright else places[0]
-        """A posture that stands straight: that of rest, else the first frame's."""
+        """Places of the joints in an upright posture: the rest pose, or else the first frame."""
         self.turned_still = np.tile(np.eye(3), (len(places[0]), 1, 1)) if upright else turned[0]
         self.axes = self._axes()
 
@@ -154,12 +154,12 @@ class _Reader:
         return self.index[self.bones.bones.get("back_2", (self.bones.root,))[-1]]
 
     def _frame(self, joint: int) -> Floats:
-        """Columns left, up, forward of a part of the body, (T, 3, 3): upright in `still`."""
+        """Return columns left, up, forward of a part of the body, (T, 3, 3): upright in `still`."""
         still = self.turned_still[joint]
         return np.asarray(self.turned[:, joint] @ still.T @ self.axes)
 
     def _axes(self) -> Floats:
-        """Left, up, forward of the body as it stands straight, in the file's axes, (3, 3)."""
+        """Return left, up, forward of the upright body, in the file's axes, (3, 3)."""
         up = self.still[self._joint("head")] - self.still[self.index[self.bones.root]]
         up = _unit(up)
         axis = int(np.abs(up).argmax())
@@ -170,7 +170,7 @@ class _Reader:
         return np.stack([left, up, np.cross(left, up)], axis=-1)
 
     def _palm(self, side: str) -> Floats:
-        """Columns x, dir, nrm of a palm, (T, 3, 3): by knuckles, else by the hand's rotation."""
+        """Return columns x, dir, nrm of a palm, (T, 3, 3): by knuckles or the hand's rotation."""
         wrist = self.at(f"palm_{side}")
         there = [f"{f}_{side}_1" for f in FINGERS if f"{f}_{side}_1" in self.bones.bones]
         sign = 1.0 if side == "L" else -1.0
@@ -204,7 +204,7 @@ class _Reader:
         return found
 
     def _upright(self) -> bool:
-        """Whether the rest posture stands: its head as high over its hips as in the first frame."""
+        """Whether the rest pose is upright: its head as high over its hips as in frame one."""
         still = self.recording.skeleton.rest_positions
         root, head = self.index[self.bones.root], self._joint("head")
         height = float(np.linalg.norm(still[head] - still[root]))

@@ -9,9 +9,9 @@ Array = NDArray[np.float64]
 
 
 def minimum_jerk(tau: ArrayLike) -> Array:
-    """10τ³ − 15τ⁴ + 6τ⁵ of a time that goes from 0 to 1 (Flash and Hogan 1985).
+    """Return 10τ³ − 15τ⁴ + 6τ⁵ of a time that goes from 0 to 1 (Flash and Hogan 1985).
 
-    The movement between two points at rest whose third derivative is smallest: speed and
+    This is the movement between two standing points with the least third derivative: speed and
     acceleration are zero at both ends. Times outside stay at the nearer end.
     """
     t = np.clip(np.asarray(tau, dtype=np.float64), 0.0, 1.0)
@@ -50,11 +50,11 @@ def cubic_spline(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:
 
 
 def _not_a_knot(h: Array, b: Array) -> Array:
-    """Second derivatives at the inner knots, (n − 2, d), by elimination along the diagonal.
+    """Return second derivatives at the inner knots, (n − 2, d), by elimination along the diagonal.
 
     Inside, h₋c₋ + 2(h₋ + h₊)c + h₊c₊ = b. The third derivative does not jump at the second knot:
-    (c₁ − c₀)/h₀ = (c₂ − c₁)/h₁, which takes c₀ out of the first row; alike at the other end. What
-    remains is dominated by its diagonal and needs no pivoting.
+    (c₁ − c₀)/h₀ = (c₂ − c₁)/h₁, which removes c₀ from the first row; the other end is alike. The
+    remaining matrix is dominated by its diagonal and needs no pivoting.
 
     Args: h: (n − 1,) lengths of the pieces. b: (n − 2, d).
     """

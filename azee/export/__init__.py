@@ -1,1 +1,1 @@
-"""Clips and scores written in formats that others can open."""
+"""Writes clips and scores in formats that other programs open."""

@@ -1,4 +1,4 @@
-"""Output files that are whole or not there: written beside, flushed, then renamed."""
+"""Output files that are complete or absent: written beside, flushed, then renamed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import BinaryIO
 
 @contextmanager
 def replace_file(path: str | Path) -> Iterator[BinaryIO]:
-    """Open a file for binary writing that takes the place of `path` once all went well.
+    """Open a file for binary writing that replaces `path` if there was no error.
 
     Raises: OSError: as `replace_path`.
     """
@@ -24,11 +24,11 @@ def replace_file(path: str | Path) -> Iterator[BinaryIO]:
 
 @contextmanager
 def replace_path(path: str | Path) -> Iterator[Path]:
-    """Give a path to write to, which takes the place of `path` once all went well.
+    """Give a path to write to; its file replaces `path` if there was no error.
 
-    It is a hidden neighbour in the same folder that then gets the name; after any exception `path`
-    is as it was before and the neighbour is gone. A symbolic link is followed, and the permissions
-    are those a plain `open` would give.
+    It is a hidden file in the same folder that is renamed at the end. After any exception, `path`
+    is as it was before and the hidden file is gone. A symbolic link is followed, and the
+    permissions are those of a plain `open`.
 
     Raises: OSError: the folder is missing or not writable, or `path` is a folder.
     """
@@ -48,7 +48,7 @@ def replace_path(path: str | Path) -> Iterator[Path]:
 
 
 def _permissions(target: Path) -> int:
-    """Those of the file that is replaced, else what the process' mask leaves of 0666."""
+    """Return the permissions of the replaced file, or else 0666 with the process' mask."""
     if target.exists():
         return target.stat().st_mode & 0o777
     mask = os.umask(0)

@@ -1,4 +1,4 @@
-"""Where the blocks of a score stand when it is drawn: lanes on a time axis, nested or flattened."""
+"""Places the blocks of a score for drawing: lanes on a time axis, nested or flattened."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Box:
 
     @property
     def details(self) -> tuple[str, ...]:
-        """What its leaf asks for, a line each; empty for a group."""
+        """The constraints of its leaf, a line each; empty for a group."""
         match self.score:
             case Key(constraints=constraints):
                 return tuple(map(constraint_text, constraints))
@@ -48,7 +48,7 @@ class Box:
 
 
 def title(name: str, score: Score) -> str:
-    """Name a block by the block name and by the rule that its score came from."""
+    """Return the name of a block, with the rule that its score came from."""
     rule = score.calls[0].rule if score.calls else ""
     if not name:
         return rule or type(score).__name__.lower()
@@ -96,7 +96,7 @@ def flattened(score: Score, top: float = 0.0) -> tuple[Box, ...]:
 
 
 def _short_path(path: Sequence[str]) -> str:
-    """Last name of a path; a bare number, as blocks of a `seq` have, with the name before it."""
+    """Return the last name of a path; a number, as in a `seq`, follows the name before it."""
     if not path:
         return ""
     return " ".join(path[-2:]) if path[-1].isdecimal() else path[-1]
@@ -109,7 +109,7 @@ def boundaries(score: Score) -> tuple[Fraction, ...]:
 
 
 def lanes(intervals: Sequence[Interval]) -> list[list[int]]:
-    """Spread intervals over as few rows as they need: no two in a row overlap or coincide.
+    """Distribute intervals over as few rows as possible: no two in a row overlap or coincide.
 
     Returns: rows of indices; each interval, in the order given, in the first row that has room.
     """

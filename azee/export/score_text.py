@@ -14,7 +14,7 @@ def tree(score: Score) -> str:
 
 
 def _lines(box: Box, first: str, rest: str) -> Iterator[str]:
-    """Yield the lines of a box: `first` leads the line of its name, `rest` the ones below."""
+    """Yield the lines of a box: `first` precedes the line of its name, `rest` the lines below."""
     start, end = (f"{float(t):.2f}" for t in (box.interval.start, box.interval.end))
     yield f"{start:>7} – {end:<7} {first}{box.title}"
     inner = sorted(box.inner, key=lambda b: (b.interval.start, b.interval.end))

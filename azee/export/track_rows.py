@@ -1,4 +1,4 @@
-"""Tracks as rows: a row per part of the body, in it a bar for every block that keys the part."""
+"""Tracks as rows: a row per part of the body, with a bar for every block that moves it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _FINGER = re.compile("(?:thumb|index|middle|ring|little)_")
 
 @dataclass(frozen=True, slots=True)
 class Bar:
-    """What one block keys of one part of the body, on the score's time line."""
+    """The keys of one block for one part of the body, on the score's time line."""
 
     path: tuple[str, ...]
     start_s: float
@@ -40,7 +40,7 @@ class Row:
 
 
 def track_rows(tracks: Sequence[Track]) -> tuple[Row, ...]:
-    """Return a row per part of the body that any track keys, in the order of its coordinates."""
+    """Return a row per part of the body that any track moves, in the order of its coordinates."""
     if not tracks:
         return ()
     from azee.motion.tasks.limbs import limb_of_coordinate
@@ -58,7 +58,7 @@ def track_rows(tracks: Sequence[Track]) -> tuple[Row, ...]:
 
 
 def part_name(limb: str) -> str:
-    """Name a limb for people: `arm_R` is the right arm."""
+    """Return the name of a limb for people: `arm_R` is the right arm."""
     part, _, side = limb.partition("_")
     return f"{SIDES[side]} {part}" if side in SIDES else limb.replace("_", " ")
 

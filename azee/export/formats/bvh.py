@@ -1,12 +1,12 @@
 """A clip as BVH, after the format's description and conventions in Gürel 2010, appendix B.
 
-One skeleton; tabs; the root has six channels, every other joint three, rotations in the order Z,
-X, Y; angles in degrees, lengths in centimetres, as motion-capture tools expect. The root's OFFSET
-is zero and its position channels are absolute: readers disagree on whether an offset is to be
-added to the channels or replaced by them, and zero is the one value that all read alike.
+One skeleton; tabs; the root has six channels, every other joint three, rotations in the order Z, X,
+Y; angles in degrees, lengths in centimetres, as motion-capture tools expect. The root's OFFSET is
+zero and its position channels are absolute. Some programs add the offset to the channels and some
+replace it; with zero, all give the same result.
 
-Names keep to the letters, digits and underscores of the appendix' grammar. Morph weights have no
-place in the format.
+Names have only the letters, digits and underscores of the appendix' grammar. The format has no
+morph weights.
 """
 
 from __future__ import annotations
@@ -28,8 +28,10 @@ CENTIMETRES = 100.0
 POSITIONS = "Xposition Yposition Zposition"
 ROTATIONS = "Zrotation Xrotation Yrotation"
 TIP = 0.75
-"""Length of a last bone, which a skeleton of joints does not know, as a share of the one before:
-about what distal phalanges are to middle ones."""
+"""Length of a last bone as a share of the bone before, since joints do not give its length.
+
+About the ratio of distal to middle phalanges.
+"""
 ONE_FRAME_S = 1 / 30
 """Frame time of a still."""
 
@@ -77,7 +79,7 @@ def _depth_first(joint: int, below: Sequence[Sequence[int]]) -> Iterator[int]:
 
 
 def _names(skeleton: Skeleton) -> list[str]:
-    """Joint names of letters, digits and underscores, told apart where that makes two alike."""
+    """Return joint names of letters, digits and underscores; equal ones get different endings."""
     names: list[str] = []
     for name in skeleton.names:
         plain = re.sub(r"[^A-Za-z0-9_]", "_", name)

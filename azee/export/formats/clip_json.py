@@ -15,7 +15,7 @@ from azee.export.formats.moving_body import MovingBody
 
 METRES = 6
 QUATERNION = 8
-"""Decimals that are written."""
+"""Number of decimals that are written."""
 
 
 def write_json(clip: Clip, rig: MovingBody, path: str | Path) -> None:

@@ -1,15 +1,16 @@
 """A score as an ELAN file, so that linguists see it beside their videos.
 
-EAF 3.0, the format of ELAN (Max Planck Institute for Psycholinguistics). Blocks of the score are a
-tree of tiers: one for the whole, and under each tier one for the blocks inside its blocks, or more
-where those overlap, for a tier holds no two annotations at once. A tier is included in time in the
-one above it. Tracks, which a solved score has, are tiers of their own, by part of the body.
+EAF 3.0 is the format of ELAN (Max Planck Institute for Psycholinguistics). Blocks of the score form
+a tree of tiers: one for the whole, and under each tier one for the blocks inside its blocks. If
+these overlap there are several tiers, because a tier has only one annotation at a time. A tier is
+included in time in the one above it. The tracks of a solved score are tiers of their own, by part
+of the body.
 
-ELAN counts whole milliseconds and has no annotation without a length: times are rounded, and what
-would have none gets one millisecond, inside the block around it.
+ELAN counts whole milliseconds and has no annotation without a length. Times are rounded, and a
+block of no length gets one millisecond, inside the block around it.
 
-The format asks for a date. The same score gives the same bytes, so it is that of the environment's
-SOURCE_DATE_EPOCH, as reproducible builds have it, and 1970 where that is not set.
+The format requires a date. It is that of the environment's SOURCE_DATE_EPOCH, as in reproducible
+builds, or 1970, so that the same score gives the same bytes.
 """
 
 from __future__ import annotations
@@ -39,15 +40,15 @@ STEREOTYPES = {
     "Symbolic_Association": "One annotation for the one above it",
     "Included_In": "Annotations lie within the time of the one above them; gaps are allowed",
 }
-"""The four relations between tiers that ELAN knows by name; every file of ELAN's declares them."""
+"""The four relations between tiers that ELAN has; every file of ELAN declares them."""
 WHOLE, INNER, TRACK = "score", "blocks", "track"
-"""Linguistic types: the whole, what is inside something, and what is keyed."""
+"""Linguistic types: the whole, what is inside something, and tracks."""
 _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """An annotation: what it says, and when, in milliseconds."""
+    """An annotation: its text and its interval, in milliseconds."""
 
     text: str
     start_ms: int
@@ -56,7 +57,7 @@ class Note:
 
 @dataclass(slots=True)
 class Tier:
-    """Annotations that do not overlap, inside those of the tier above it if there is one."""
+    """Annotations that do not overlap; they lie inside those of the tier above, if there is one."""
 
     name: str
     kind: str
@@ -81,8 +82,8 @@ def write_eaf(
 ) -> None:
     """Write a score, and rows of tracks, as an ELAN file.
 
-    Args: lead_s: when the score starts in the film that goes with it. media: that film, or a video
-        of a signer; a path from where we are.
+    Args: lead_s: start of the score in the film that belongs to it. media: that film, or a video of
+        a signer, as a path from the current folder.
     Raises: OSError: the file cannot be written.
     """
     tiers = [*score_tiers(score, lead_s).all(), *track_tiers(rows, lead_s)]
@@ -94,7 +95,7 @@ def write_eaf(
 
 
 def score_tiers(score: Score, lead_s: float = 0.0) -> Tier:
-    """Return the tree of tiers of a score; its root holds the whole."""
+    """Return the tree of tiers of a score; its root has the whole score."""
     root = Tier(WHOLE, WHOLE)
     start = Fraction(lead_s)
     whole = _note(title("", score), start, start + score.duration)
@@ -144,7 +145,7 @@ def _note(text: str, start: Fraction, end: Fraction) -> Note:
 
 
 def _inside(note: Note, around: Note) -> Note:
-    """Keep a block of no length inside the block at whose end it stands."""
+    """Keep a block of no length inside the block at whose end it is."""
     end = min(note.end_ms, around.end_ms)
     start = min(max(note.start_ms, around.start_ms), end - 1)
     return Note(note.text, start, end)
@@ -219,7 +220,7 @@ def _start(note: Note) -> int:
 
 
 def _media(media: Path, beside: Path) -> dict[str, str]:
-    """Say where a video is: for this machine, and as seen from the ELAN file."""
+    """Describe the place of a video: for this machine, and relative to the ELAN file."""
     kind = mimetypes.guess_type(media.name)[0] or "video/mp4"
     whole = media.resolve()
     try:

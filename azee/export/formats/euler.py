@@ -30,12 +30,12 @@ class EulerZXY:
             w + x = (cos h + sin h) cos s        z + y = (cos h + sin h) sin s
             w − x = (cos h − sin h) cos d        z − y = (cos h − sin h) sin d
 
-        so that s, d and h come from one arctangent each, without the cancellation that an
-        arcsine near ±90° has (after Bernardes & Viollet 2022, for this order of axes). At
-        x = +90° d means nothing, at −90° s: it stays what it was a frame before.
+        So s, d and h come from one arctangent each, without the cancellation of an arcsine near
+        ±90° (after Bernardes & Viollet 2022, for this order of axes). At x = +90° d is
+        undetermined, at −90° s: it keeps its value of the frame before.
 
-        Of the two triples for one rotation, and their full turns, each frame takes the one
-        nearest to the frame before.
+        Two triples and their full turns give the same rotation. Each frame takes the one nearest to
+        the frame before.
         """
         w, x, y, z = np.moveaxis(np.asarray(rotations, dtype=np.float64), -1, 0)
         plus, minus = np.hypot(z + y, w + x), np.hypot(z - y, w - x)
@@ -69,7 +69,7 @@ class EulerZXY:
 
 
 def _nearest(angles: NDArray[np.float64], to: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return that of the equivalent triples (…, 3) which lies nearest to `to`."""
+    """Return the equivalent triples (…, 3) that are nearest to `to`."""
     other = angles * (1, -1, 1) + np.pi
     turn = 2 * np.pi
     angles, other = (a + turn * np.round((to - a) / turn) for a in (angles, other))

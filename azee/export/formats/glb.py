@@ -16,9 +16,9 @@ from azee.export.formats.moving_body import MovingBody
 def write_glb(clip: Clip, rig: MovingBody, path: str | Path) -> None:
     """Write a GLB that any glTF viewer plays.
 
-    Joints keep the rig's names and rest posture; morph targets are the rig's face units, by name;
-    the animation's extras hold the clip's labels. glTF's frame is ours: metres, Y up, the signer
-    looks along +Z.
+    Joints keep the rig's names and bind pose; morph targets are the rig's face units, by name; the
+    animation's extras hold the clip's labels. glTF's frame is ours: metres, Y up, the signer looks
+    along +Z.
 
     Raises: OSError: the file cannot be written.
     """

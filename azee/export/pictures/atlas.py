@@ -26,7 +26,7 @@ SITE_VIEWS: Mapping[str, Sequence[str]] = {
     "head": ("face", "face side", "head left"),
     "hand": tuple(f"right hand {side}" for side in ("palm", "back", "thumb", "little", "tips")),
 }
-"""Views that share the sites of a region among them: each is labelled where it is seen best."""
+"""Views that share the sites of a region; each site is labelled in the view that shows it best."""
 HAND_UP: Mapping[str, float] = {
     "arm_R.flexion": 40.0,
     "arm_R.abduction": 8.0,
@@ -43,19 +43,19 @@ HAND_UP: Mapping[str, float] = {
 """Degrees."""
 
 MORPH_VIEW_M = 0.105
-"""Half the height of the face that a morph is shown on: from the forehead to under the chin."""
+"""Half the height of the picture of a morph: from the forehead to under the chin."""
 FROM_THE_SIDE = frozenset({"AU29"})
 
 
 def site_sheet(rig: Rig) -> Image.Image:
-    """Show every site as a labelled dot, but those of the left hand, which mirror the right's."""
+    """Show every site as a labelled dot, except those of the left hand, which mirrors the right."""
     return contact_sheet([panel for region in SITE_VIEWS for panel in site_panels(rig, region)], 4)
 
 
 def site_panels(rig: Rig, region: str) -> list[tuple[str, Image.Image]]:
-    """Show the sites of a region of SITE_VIEWS; rings are those that no view sees.
+    """Show the sites of a region of SITE_VIEWS; rings are those that no view shows.
 
-    Body and head stand in the mesh's own posture, the right hand is held up, fingers apart.
+    Body and head are in the bind pose; the right hand is held up, fingers apart.
     """
     q = np.array(rig.coordinates.bind)
     if region == "hand":
@@ -79,7 +79,7 @@ def site_panels(rig: Rig, region: str) -> list[tuple[str, Image.Image]]:
 
 
 def _region(bone: str) -> str:
-    """Region of SITE_VIEWS that a bone's sites are shown in; none for the left hand's."""
+    """Return the region of SITE_VIEWS for a bone's sites; none for the left hand's."""
     if bone.startswith(HAND):
         return "hand" if "_R" in bone else ""
     return "head" if bone.startswith(("head", "eye", "neck")) else "body"
@@ -128,7 +128,7 @@ def _with_axes(rig: Rig, q: Floats, eye: Camera, bones: list[str], length: float
 
 
 def limit_sheet(rig: Rig) -> Image.Image:
-    """Show each coordinate of trunk, head and right side at both of its limits, all else idle."""
+    """Show each coordinate of trunk, head and right side at both of its limits, others at idle."""
     c = rig.coordinates
     shown = []
     for i, name in enumerate(c.names):
@@ -144,7 +144,7 @@ def limit_sheet(rig: Rig) -> Image.Image:
 
 
 def _limit_view(coordinate: str) -> str:
-    """Return the view that shows best how a coordinate moves."""
+    """Return the view that shows the movement of a coordinate best."""
     bone = coordinate.partition(".")[0]
     if bone.startswith("palm"):
         return "right hand"
@@ -157,10 +157,10 @@ def _limit_view(coordinate: str) -> str:
 
 
 def morph_sheet(rig: Rig) -> Image.Image:
-    """Show every facial morph of AZee at weight 1; first the face at rest.
+    """Show every facial morph of AZee at weight 1; first the neutral face.
 
-    A morph that the face cannot show has a tile without a face that says so. The chin's thrust
-    is seen from the side.
+    A morph that the face cannot show has a tile with a text that says so. The thrust of the chin is
+    shown from the side.
     """
     q, size = rig.coordinates.idle, (160, 176)
     eyes = rig.chain.frames(q).positions[[rig.bones[f"eye_{side}"].node for side in "LR"]]

@@ -1,4 +1,4 @@
-"""Cameras: an eye in the world that looks at a body, and where points appear in its picture."""
+"""Cameras that look at a body, and the places of points in their pictures."""
 
 from __future__ import annotations
 
@@ -46,16 +46,16 @@ VIEWS: Mapping[str, tuple[str, tuple[float, float, float], float]] = {
     "right hand": ("palm_R", (0.0, 0.1, 1.0), 0.14),
     "left hand": ("palm_L", (0.0, 0.1, 1.0), 0.14),
 }
-"""What a named camera looks at, from where, and half the height of what it shows in metres."""
+"""The target of a named camera, its direction, and half the height of its view in metres."""
 
 _LENS_RAD = np.radians(20.0)
 
 
 def camera(rig: Rig, q: Floats, view: str) -> Camera:
-    """Return a named camera for a body in posture q (V,): the views stand still but the hands'.
+    """Return a named camera for a body in posture q (V,); only those of the hands move with q.
 
-    `right hand palm`, `back`, `thumb`, `little` and `tips` look onto that side of the palm, from
-    wherever it is.
+    `right hand palm`, `back`, `thumb`, `little` and `tips` look onto that side of the palm, in any
+    posture.
     Raises: KeyError: no such view.
     """
     frames = rig.chain.frames(q)

@@ -1,7 +1,7 @@
-"""Cameras over the time of a clip: where each frame is looked at from.
+"""Cameras over the time of a clip: a camera for each frame.
 
-Body and face are looked at from one place, as a viewer sits; close-ups on the hands follow them as
-a camera operator would, a little late and never with a jerk.
+Body and face are seen from one place, as by a viewer. Close-ups follow the hands smoothly and a
+little late, as a camera operator does.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from azee_rig.rig import Rig
 Floats = NDArray[np.float64]
 
 FOLLOW_S = 0.25
-"""Standard deviation of the Gaussian that smooths where the camera looks."""
+"""Standard deviation of the Gaussian that smooths the target of the camera."""
 AWAY_M = 0.05, 0.2
-"""From which and up to which distance from its rest a hand comes into the picture of the hands."""
+"""Between these distances from its idle place, a hand gradually enters the close-up."""
 PALM_M = 0.075
 """From the wrist to about the middle of the hand."""
 MARGIN_M = 0.17
-"""What is shown around the middles of the hands."""
+"""Margin around the middles of the hands."""
 CLOSER = 0.86
-"""Distance of a film's cameras by that of the still ones: the frame keeps its upper edge."""
+"""Distance of a film's cameras, relative to the still ones; the upper edge stays the same."""
 STEADY = ("whole", "back", "front", "side", "three-quarter")
 
 
@@ -45,7 +45,7 @@ def cameras(clip: Clip, rig: Rig, shot: str, aspect: float) -> list[Camera]:
 
 
 def _closer(still: Camera, shot: str) -> Camera:
-    """Leave out the legs, but not what is above the head: hands come there."""
+    """Leave out the legs, but not the space above the head, where hands may be."""
     if shot == "whole":
         return still
     way = still.eye - still.target
@@ -64,7 +64,7 @@ def _following_face(clip: Clip, rig: Rig) -> list[Camera]:
 
 
 def _following_hands(clip: Clip, rig: Rig, sides: str, aspect: float) -> list[Camera]:
-    """Look at the hands that are away from their rest, so near that both are in the picture."""
+    """Look at the hands that are away from idle, so near that both are in the picture."""
     middles = np.stack([_middles(rig, clip.coordinates, side) for side in sides], axis=1)
     rests = np.stack([_middles(rig, rig.coordinates.idle[None], side)[0] for side in sides])
     away = np.linalg.norm(middles - rests, axis=2)
@@ -81,14 +81,14 @@ def _following_hands(clip: Clip, rig: Rig, sides: str, aspect: float) -> list[Ca
 
 
 def _middles(rig: Rig, q: Floats, side: str) -> Floats:
-    """Middles of a hand, (T, 3)."""
+    """Return the middles of a hand, (T, 3)."""
     node = rig.bones[f"palm_{side}"].node
     frames = rig.chain.frames(q)
     return np.asarray(frames.positions[:, node] + PALM_M * frames.rotations[:, node, :, 1])
 
 
 def _smoothed(times: Floats, values: Floats) -> Floats:
-    """Weighted means over the neighbouring frames, (T, …); the ends count as standing still."""
+    """Return weighted means over the neighbouring frames, (T, …); beyond the ends nothing moves."""
     step = float(np.median(np.diff(times))) if len(times) > 1 else 1.0
     reach = int(np.ceil(3 * FOLLOW_S / step))
     weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) * step / FOLLOW_S) ** 2)

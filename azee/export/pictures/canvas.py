@@ -1,4 +1,4 @@
-"""What draws many postures of one mesh: everything that stays is kept from one to the next."""
+"""Draws many postures of one mesh; everything that does not change is kept between pictures."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ LIGHTS = np.array(
     ]
 )
 BACKGROUND = (0.72, 0.76, 0.80), (0.90, 0.92, 0.94)
-"""sRGB at the top and at the bottom of a picture."""
+"""Colours at the top and at the bottom of a picture, sRGB."""
 SAMPLES = 2
 """Samples per pixel, each way."""
 SHADOW_SAMPLES = 1024
 SHADOW_MARGIN_M = 0.25
-"""What may throw a shadow into the picture from outside of it."""
+"""How far outside of the picture something may be and still throw a shadow into it."""
 _FAR = 1e30
 
 
@@ -55,7 +55,7 @@ class Canvas:
         self.curve = np.where(
             steps <= 0.0031308, 12.92 * steps, 1.055 * steps ** (1.0 / 2.4) - 0.055
         )
-        """sRGB (IEC 61966-2-1)."""
+        """The encoding of sRGB (IEC 61966-2-1)."""
 
     def draw(self, vertices: Floats, camera: Camera, transparent: bool = False) -> Pixels:
         """Return a picture (H, W, 3), or (H, W, 4) with an empty background, of vertices (N, 3)."""
@@ -101,7 +101,7 @@ class Canvas:
 
 
 def _shadow_map(target: Floats, reach_m: float) -> Floats:
-    """Rows that map a place to samples x, y and depth in metres of the key light's view."""
+    """Return rows that map a place to samples x, y and depth in metres of the key light's view."""
     right = np.cross([0.0, 1.0, 0.0], SUN)
     right = right / np.linalg.norm(right)
     up = np.cross(SUN, right)

@@ -1,9 +1,9 @@
 """Films: the frames of a clip as MP4 or WebM, encoded by PyAV, which the extra `film` installs.
 
-MP4 holds H.264, WebM VP9; both 4:2:0, tagged and converted as BT.709, so that players show the
-colours of the pictures. A transparent film is a WebM with an alpha channel. Chroma is shared by
-two pixels each way: odd sizes grow by one. The encoders are told how many threads to use and to
-write neither their version nor a date: one clip, one film.
+MP4 has H.264, WebM has VP9. Both are 4:2:0, tagged and converted as BT.709, so that players show
+the colours of the pictures. A transparent film is a WebM with an alpha channel. Chroma is shared by
+two pixels each way, so odd sizes grow by one. The encoders use a fixed number of threads and write
+neither their version nor a date, so that the same clip gives the same film.
 """
 
 from __future__ import annotations

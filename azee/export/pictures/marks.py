@@ -1,4 +1,4 @@
-"""Dots and labels on a picture of a body: labels stand beside it, a line leads to each dot."""
+"""Dots and labels on a picture of a body: labels at the sides, with a line to each dot."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FONT_PX = 11
 MARGIN_PX = 96
 """Width of the columns of labels on both sides."""
 NEAR_M = 0.004
-"""How far behind the surface that is seen a point may lie and still count as seen."""
+"""How far behind the visible surface a point may be and still count as visible."""
 UNSEEN = -2.0
 
 
@@ -46,14 +46,14 @@ class View:
     size: tuple[int, int]
 
     def shown(self, marks: Sequence[Mark]) -> Floats:
-        """How squarely each point is seen, (n,): the cosine to the eye, or UNSEEN."""
+        """Return how directly each point faces the eye, (n,): the cosine, or UNSEEN."""
         width, height = self.size
         points = np.array([mark.point for mark in marks]).reshape(-1, 3)
         normals = np.array([mark.normal for mark in marks]).reshape(-1, 3)
         to_eye = self.camera.eye - points
         distance = np.linalg.norm(to_eye, axis=1)
         facing = (normals * to_eye).sum(axis=1) / distance
-        # Before the skin, so that its own dip does not hide it.
+        # In front of the skin, so that a dip of the skin does not hide it.
         screen, inverse = projected(points + 0.001 * normals, self.camera, width, height)
         column, row = (np.round(screen[:, k] - 0.5).astype(np.int64) for k in (0, 1))
         inside = (column >= 0) & (column < width) & (row >= 0) & (row < height)
@@ -65,7 +65,7 @@ class View:
         return np.where(seen, facing, UNSEEN)
 
     def drawn(self, marks: Sequence[Mark]) -> Image.Image:
-        """Draw the body, paler than it is, with dots and labels; a ring marks a hidden point."""
+        """Draw the body in pale colours, with dots and labels; a ring marks a hidden point."""
         width, height = self.size
         body = render(self.vertices, self.mesh, self.camera, self.size)
         body = Image.blend(body, Image.new("RGB", self.size, "white"), 0.45)
@@ -95,7 +95,7 @@ class View:
 
 
 def _spread(wanted: Floats, apart: float, height: int) -> Floats:
-    """Rows (n,) near the wanted ones, in their order, apart from each other and in the picture."""
+    """Return rows (n,) near the wanted ones, in their order, apart and within the picture."""
     if not len(wanted):
         return wanted
     order = np.argsort(wanted, kind="stable")

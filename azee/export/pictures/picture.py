@@ -64,7 +64,7 @@ def picture(
 def contact_sheet(
     pictures: Sequence[tuple[str, Image.Image]], columns: int | None = None
 ) -> Image.Image:
-    """Pictures of one size side by side, each with a caption under it; rows of `columns`."""
+    """Return pictures of one size side by side, each with a caption; rows of `columns`."""
     columns = columns or len(pictures)
     width, height = pictures[0][1].size
     band = 22 if any(caption for caption, _ in pictures) else 0
@@ -80,7 +80,7 @@ def contact_sheet(
 
 
 def depth_map(vertices: Floats, triangles: Ints, camera: Camera, size: tuple[int, int]) -> Floats:
-    """Distance along the view to what each pixel sees, (H, W) metres; infinite where nothing is."""
+    """Return the distance of each pixel along the view, (H, W) metres; infinite if empty."""
     screen, _ = projected(vertices, camera, *size)
     depth = np.full((size[1], size[0]), 1e30)
     fill(screen, np.array(triangles), depth, np.full(depth.shape, -1, dtype=np.int32))

@@ -1,13 +1,13 @@
 """A small software rasteriser: triangles to pixels, the same on every machine.
 
-Two passes over a z-buffer: `fill` finds the nearest triangle of every sample, `shade` lights only
-what is seen, a pixel at a time: once for each triangle that it shows, weighted by its samples. The
-shadow of the key light is a second z-buffer, filled from where it shines; creases are darkened by
-what the first one knows of the neighbourhood.
+Two passes use a z-buffer. `fill` finds the nearest triangle of every sample. `shade` lights only
+visible triangles, a pixel at a time: once for each triangle in the pixel, weighted by its samples.
+A second z-buffer, filled from the place of the key light, gives its shadow. The first z-buffer
+darkens creases.
 
-Numba compiles the kernels once and caches them on disk. No fast-math, and no thread inside, so
-that one input gives one picture; the kernels let go of Python's lock, so that frames of a film can
-be drawn beside each other.
+Numba compiles the kernels once and caches them on disk. There is no fast-math and no thread inside,
+so that the same input gives the same picture. The kernels release Python's lock, so that frames of
+a film can be drawn at the same time.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Ints = NDArray[np.int64]
 
 _FAR = 1e30
 _RING = np.array([[1.0, 0.0], [0.7071, 0.7071], [0.0, 1.0], [-0.7071, 0.7071]])
-"""Directions in which creases are looked for, and against which."""
+"""Directions in which creases are searched, each with its opposite."""
 
 _fill_types = "void(f8[:,::1], i8[:,::1], f8[:,::1], i4[:,::1])"
 
@@ -73,7 +73,7 @@ def fill(screen: Any, triangles: Any, depth: Any, seen: Any) -> None:
 
 @njit("f8(f8[::1], f8[::1], f8[:,::1], f8[:,::1], i8, f8)", cache=True, nogil=True)
 def _lit(p: Any, n: Any, shadow_from: Any, shadow: Any, size: Any, texel_m: Any) -> Any:
-    """Share of the key light that reaches a place: nine looks into the shadow buffer."""
+    """Return the share of the key light at a place, by nine samples of the shadow buffer."""
     s = np.empty(3)
     for r in range(3):
         s[r] = shadow_from[3, r]
@@ -92,10 +92,10 @@ def _lit(p: Any, n: Any, shadow_from: Any, shadow: Any, size: Any, texel_m: Any)
 
 @njit("f8(f8[:,::1], i8, i8, f8)", cache=True, nogil=True)
 def _open(depth: Any, x: Any, y: Any, reach: Any) -> Any:
-    """Share of the surroundings that a sample sees: less in creases, between fingers, under chins.
+    """Return the share of the surroundings that a sample sees: less in creases and between fingers.
 
-    Looks to opposite sides at once, so that a surface that is merely tilted counts as flat. What
-    stands far in front does not darken what is behind it.
+    It compares opposite sides at once, so that a tilted surface counts as flat. A surface far in
+    front does not darken the surface behind it.
 
     Args: depth: as of `fill`, −1 / distance. reach: samples a metre at distance 1.
     """

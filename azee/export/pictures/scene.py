@@ -1,4 +1,4 @@
-"""Frames of a clip as a film shows them: one camera or several side by side, the strip below."""
+"""Frames of a clip in a film: one camera or several side by side, with the strip below."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ Pixels = NDArray[np.uint8]
 
 MOST_THREADS = 8
 LEAST = 16
-"""Pixels of what a camera shows, each way."""
+"""The least pixels of a camera's panel, each way."""
 
 
 class NoRoomError(ValueError):
-    """Too small a picture for what it is to show."""
+    """The picture is too small for its content."""
 
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """How frames look: size in pixels, the cameras from left to right, the strip, the background.
+    """The look of frames: size in pixels, cameras from left to right, captions, background.
 
     Raises: ValueError: no camera. NoRoomError.
     """
@@ -55,9 +55,9 @@ class Scene:
     """A clip in front of its cameras."""
 
     def __init__(self, clip: Clip, rig: Rig, look: Look) -> None:
-        """Prepare all that stays. Raises: KeyError: there is no camera of that name.
+        """Prepare everything that is the same in all frames.
 
-        NoRoomError: the captions leave none.
+        Raises: KeyError: there is no camera of that name. NoRoomError: the captions leave none.
         """
         self.clip, self.rig, self.look = clip, rig, look
         width, height = look.size
@@ -76,7 +76,7 @@ class Scene:
         self.faces[:, [rig.units.index(unit) for unit in clip.units]] = clip.unit_weights
 
     def canvases(self) -> list[Canvas]:
-        """Buffers for one thread: a canvas per panel."""
+        """Return buffers for one thread: a canvas per panel."""
         return [Canvas(self.rig.mesh, size, self.look.samples) for size in self.panels]
 
     def frame(self, index: int, canvases: list[Canvas]) -> Pixels:
@@ -84,7 +84,7 @@ class Scene:
         return self._captioned(index, self._drawn(index, canvases))
 
     def _drawn(self, index: int, canvases: list[Canvas]) -> Pixels:
-        """Draw what the cameras see, side by side; threads may do so at once."""
+        """Draw the views of the cameras side by side; several threads may call this at once."""
         root = np.broadcast_to(self.poses.root_translation, (len(self.clip.times), 3))[index]
         pose = Pose(root, self.poses.rotations[index])
         vertices = self.rig.skin(pose, self.faces[index])

@@ -1,9 +1,9 @@
 """A score as a drawing: nested above, flattened below, tracks at the bottom, over one time axis.
 
-After figures 1 and 2 of Nunnari, Filhol & Heloir 2018: boxes on a time line, levels inside each
-other, grey where the recursion ends in constraints. Every box tells its constraints. Tracks, which
-a solved score has, are a row per part of the body: a bar for each block that keys it, with a mark
-at each key.
+The drawing follows figures 1 and 2 of Nunnari, Filhol & Heloir 2018: boxes on a time line, levels
+inside each other, grey boxes for constraints. The tooltip of a box lists its constraints. The
+tracks of a solved score have a row per part of the body, with a bar for each block that moves it
+and a mark at each key.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from azee.score.score import Blank, Group, Hold, Key, Score
 
 MARGIN = 28.0
 INSET = 2.5
-"""How much narrower a box is than the box around it, so that edges of one instant stay apart."""
+"""How much narrower a box is than the box around it, so that edges at one instant are apart."""
 CHARACTER = 7.4
 NARROW, WIDE = 4.2, 9.4
 """Widths of most characters, of narrow ones and of capitals at 12 px, in a wide font."""
@@ -27,11 +27,11 @@ CAPTION = 26.0
 THINNEST = 4.0
 """Width of a box that has no length."""
 NARROWEST, WIDEST = 110.0, 420.0
-"""Pixels a second: as many as the names need, within these."""
+"""Pixels a second: as many as the names need, within these bounds."""
 WIDEST_PICTURE = 1600.0
-"""Up to which the picture grows for the sake of names, in pixels."""
+"""The largest width of the picture that names may cause, in pixels."""
 NARROWEST_PICTURE = 560.0
-"""What the legend needs, in pixels."""
+"""Width of the legend, in pixels."""
 LANE = 22.0
 """Height of a row of tracks with its gap."""
 LEGEND = (
@@ -43,7 +43,7 @@ LEGEND = (
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """Where an instant lies, in pixels."""
+    """Return the place of an instant, in pixels."""
 
     left: float
     scale: float
@@ -82,14 +82,14 @@ def score_drawing(score: Score, rows: Sequence[Row] = ()) -> Drawing:
 
 
 def width(text: str) -> float:
-    """Return about how wide a text is, in pixels; rather more than less."""
+    """Return the approximate width of a text, in pixels; rather too much than too little."""
     return sum(
         WIDE if c.isupper() else NARROW if c in " .,:;'|!ijlt·()[]" else CHARACTER for c in text
     )
 
 
 def _scale(boxes: Iterable[Box], duration: Fraction) -> float:
-    """Pixels a second that let every name stand in its box, if that is not too many."""
+    """Return the pixels a second with which every name fits into its box, up to a bound."""
     needed = [
         (width(box.title) + 2 * INSET * (box.depth + 2)) / float(box.interval.duration)
         for box in boxes
@@ -100,7 +100,7 @@ def _scale(boxes: Iterable[Box], duration: Fraction) -> float:
 
 
 def _box(box: Box, axis: _Axis, low: float, high: float) -> Iterable[Shape]:
-    """Draw a box and what is inside, between the edges of the box around it."""
+    """Draw a box and its inner boxes, between the edges of the box around it."""
     low, high = low + INSET, high - INSET
     left, right = max(axis.x(box.interval.start), low), min(axis.x(box.interval.end), high)
     if right - left < THINNEST:
@@ -137,7 +137,7 @@ def _tip(box: Box) -> str:
 
 
 def _rows(rows: Sequence[Row], axis: _Axis, top: float) -> Iterable[Shape]:
-    """Draw the tracks, part by part of the body; overlapping blocks one below the other."""
+    """Draw the tracks of each part of the body; overlapping blocks one below the other."""
     if not rows:
         return
     yield Text("Tracks", axis.left, top - 10, "caption")
@@ -168,7 +168,7 @@ def _bar(row: Row, bar: Bar, axis: _Axis, top: float) -> Shape:
 def _keyframes(
     times: Sequence[Fraction], axis: _Axis, top: float, bottom: float
 ) -> Iterable[Shape]:
-    """Numbered lines at the boundaries; where numbers would touch, the later one is left out."""
+    """Draw numbered lines at the boundaries; where numbers would touch, leave out the later one."""
     free = 0.0
     for number, time in enumerate(times):
         x = axis.x(time)

@@ -1,4 +1,4 @@
-"""The drawing of a score as PNG, twice as fine as the SVG's pixels."""
+"""The drawing of a score as PNG, with twice the resolution of the SVG."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from azee.score.score import Score
 
 FINE = 2
 LARGEST_PX = 16000
-"""Longest side of a picture: beyond it is drawn less fine."""
+"""Longest side of a picture; larger drawings get a lower resolution."""
 BOXES: dict[str, tuple[tuple[str, ...], str]] = {
     "group": (("#ffffff", "#f4f7fb"), "#444444"),
     "leaf": (("#d3d3d3",), "#555555"),
@@ -25,7 +25,7 @@ BOXES: dict[str, tuple[tuple[str, ...], str]] = {
     "blank": (("#ffffff",), "#888888"),
     "track": (("#d9e5f2",), "#5b7fa6"),
 }
-"""Fills, of which groups alternate, and outline of each kind."""
+"""Fill and outline of each kind; fills of groups alternate."""
 INKS = {"grid": "#e3e3e3", "axis": "#222222", "key": "#b03a2e", "mark": "#1f4e86"}
 TEXTS: dict[str, tuple[int, str, str]] = {
     "": (12, "#222222", "ls"),
@@ -104,7 +104,7 @@ class _Pen:
                 self._line(a, b, c, d, outline, dash, 1)
 
     def _stripes(self, box: Rect) -> None:
-        """Slanted lines inside a box, as the SVG has them."""
+        """Draw slanted lines inside a box, as the SVG does."""
         step = 6.0
         start = box.x - box.height
         for n in range(int((box.width + box.height) / step) + 1):

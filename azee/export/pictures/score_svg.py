@@ -35,7 +35,7 @@ STRIPES = (
     '<rect width="2" height="6" fill="#bbb"/></pattern>'
 )
 SHADES = ("#ffffff", "#f4f7fb")
-"""Of groups, which alternate with depth."""
+"""Fills of groups, which alternate with depth."""
 
 
 def write_svg(score: Score, path: str | Path, rows: Sequence[Row] = ()) -> None:

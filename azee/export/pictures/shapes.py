@@ -1,4 +1,4 @@
-"""What a drawing is made of, whatever it is drawn on. Places are in pixels, y runs down."""
+"""The shapes of a drawing, for any medium. Places are in pixels, y points down."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """Words on a baseline at y, from x on, or about x or up to x as their style says."""
+    """Text on a baseline at y; it begins, is centred or ends at x, by its style."""
 
     text: str
     x: float
@@ -42,7 +42,7 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """Shapes that tell more when they are pointed at."""
+    """Shapes with a tooltip."""
 
     tip: str
     shapes: tuple[Shape, ...]

@@ -1,4 +1,4 @@
-"""Names of the cameras of films and pictures; light, for whoever only lists them."""
+"""Names of the cameras of films and pictures, in a module that is fast to import."""
 
 SHOTS = (
     "front",

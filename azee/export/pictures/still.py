@@ -20,9 +20,9 @@ from azee.export.pictures.storyboard import telling_frames
 from azee_rig.rig import Rig
 
 MOST = 12
-"""Key postures on a sheet; of more, those that differ most from each other."""
+"""The most key postures on a sheet; of more, those that differ most from each other are shown."""
 SECOND_RAD = 1.5
-"""As how much of a turn a second counts, so that the sheet has something of every time."""
+"""The turn that a second counts as, so that the sheet has postures of all times."""
 UPRIGHT = 0.8
 """Width by height of a picture on a sheet."""
 WIDEST = 1800
@@ -47,12 +47,12 @@ def write_moments(
 def write_sheet(
     clip: Clip, rig: Rig, path: str | Path, look: Look, key_times: Sequence[float] | None = None
 ) -> None:
-    """Draw the key postures, and what is half-way between them, as rows of upright pictures.
+    """Draw the key postures, and the postures half-way between them, as rows of upright pictures.
 
-    What the clip begins and ends with counts as a key posture.
+    The first and the last posture of the clip count as key postures.
 
-    Args: look: of which the cameras, and twice the height of a picture, are taken. key_times: of
-        the key postures; without any, of the moments at which the body moves least.
+    Args: look: gives the cameras, and twice the height of a picture. key_times: of the key
+        postures; without any, the moments of least movement are taken.
     Raises: KeyError: no such camera. OSError.
     """
     keys = resting_times(clip) if key_times is None else key_times
@@ -82,7 +82,7 @@ def running(clip: Clip, time_s: float) -> str:
 
 
 def resting_times(clip: Clip) -> list[float]:
-    """Return both ends, and the times between at which the body moves less than around them."""
+    """Return both ends, and the times between with less movement than around them."""
     if len(clip.times) < 3:
         return [float(time) for time in clip.times]
     speed = np.abs(np.gradient(clip.coordinates, clip.times, axis=0)).max(axis=1)

@@ -15,12 +15,12 @@ from azee_rig.rig import Rig
 
 VIEWS = ("front", "side")
 MOST = 8
-"""Moments in one picture; of more, those that differ most from each other are shown."""
+"""The most moments in a picture; of more, those that differ most from each other are shown."""
 SIZE = (360, 450)
 SAME_RAD = np.radians(3.0)
-"""Up to which difference in any one joint postures look the same."""
+"""Up to this difference in any one joint, postures look the same."""
 FACE_RAD = np.radians(15.0)
-"""A face unit that comes in whole tells as much as this turn of a joint."""
+"""The turn of a joint that counts as much as a face unit of full weight."""
 
 
 def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) -> None:
@@ -46,9 +46,9 @@ def write_png(clip: Clip, rig: Rig, path: str | Path, moments: Sequence[float]) 
 def telling_frames(
     clip: Clip, moments: Sequence[float], most: int, second_rad: float = 0.0
 ) -> list[int]:
-    """Choose, of the frames at some moments (seconds), those whose postures tell most.
+    """Choose, of the frames at some moments (seconds), those that differ most from each other.
 
-    Args: second_rad: as how much of a turn a second counts that lies between two postures.
+    Args: second_rad: the turn that a second between two postures counts as.
     """
     frames = sorted({int(np.abs(clip.times - moment).argmin()) for moment in moments})
     late = second_rad * clip.times[:, None]
@@ -57,7 +57,7 @@ def telling_frames(
 
 
 def telling(shapes: NDArray[np.float64], most: int) -> list[int]:
-    """Choose the postures that tell most: the first, then ever the one least like those chosen.
+    """Choose the first posture, then again and again the one least like those chosen.
 
     Args: shapes: (n, D) radians, in order of time. Returns: at most `most` indices, in order; of
         postures that look the same only the first.

@@ -1,7 +1,7 @@
 """The strip under a film: the blocks that are running, a row per level of nesting.
 
-What runs is a chip with its name, filled as far as its time has passed. Siblings at the same level
-share their row. Levels beyond the last row stand behind their outer block in that row.
+A running block is a chip with its name, filled as far as its time has passed. Siblings at the same
+level share their row. Levels beyond the last row follow their outer block in that row.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ CHIPS = ((58, 82, 120), (44, 98, 96), (104, 76, 112), (110, 88, 52))
 
 
 class Strip:
-    """Draws the strip of one clip: always of the same height, whatever runs."""
+    """Draws the strip of one clip, always with the same height."""
 
     def __init__(self, labels: Sequence[Label], size: tuple[int, int]) -> None:
-        """Args: size: of the whole picture that the strip goes under, in pixels."""
+        """Args: size: of the whole picture, in pixels."""
         self.labels, self.width = tuple(labels), size[0]
         self.line = max(13, round(min(size[0] / 40, size[1] / 26)))
         depth = max((label.depth for label in labels), default=-1)
@@ -36,7 +36,7 @@ class Strip:
         self._drawn: tuple[object, Pixels] | None = None
 
     def running(self, time_s: float) -> list[list[Label]]:
-        """Return the labels that hold at a time, by row; of no length, those just there."""
+        """Return the labels that run at a time, by row; those of no length if they begin there."""
         rows: list[list[Label]] = [[] for _ in range(self.rows)]
         for label in self.labels:
             if label.start_s <= time_s < max(label.end_s, label.start_s + 1e-3):
@@ -84,7 +84,7 @@ class Strip:
         return np.asarray(image)
 
     def _filled(self, label: Label, time_s: float) -> int:
-        """How far a label's time has passed, in eighths of a line of its chip's width."""
+        """Return how far a label's time has passed, in eighths of a line of its chip's width."""
         length = label.end_s - label.start_s
         share = (time_s - label.start_s) / length if length > 0 else 1.0
         return int(share * self.line * 8)

@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 REST = (0.0, 0.0, 0.0, 1.0)
 """No turn, as glTF writes it."""
 STILL = 1e-6
-"""Change of a quaternion, a position in metres or a weight that nobody can see."""
+"""Change of a quaternion, a position in metres or a weight that is not visible."""
 
 
 def add_animation(
@@ -31,9 +31,9 @@ def add_animation(
 ) -> int:
     """Add the animation of a clip; returns its index.
 
-    Only what moves has a key per frame. A joint that is turned but never moves has a single key,
-    so that the nodes themselves keep the rest posture that retargeting tools start from; one
-    that stays at rest has none. A clip that is at rest all along has one key, of the root.
+    Only joints that move have a key per frame. A joint that is turned but never moves has a single
+    key, so that the nodes keep the rest pose from which retargeting tools start. A joint that stays
+    in the rest pose has none. A clip that stays there has one key, of the root.
 
     Args: pose: (T, J) postures of the clip's frames. nodes: the joints' nodes, the first the
         root's. root_offset: (3,) rest position of the root. targets: names of the mesh's morph
@@ -45,7 +45,7 @@ def add_animation(
     channels: list[dict[str, Any]] = []
 
     def channel(node: int, path: str, values: Floats, rest: Sequence[float] | Floats) -> None:
-        """Add a channel of one row a frame; none where the values never leave `rest`."""
+        """Add a channel with one row per frame; none if the values never leave `rest`."""
         if np.abs(values - rest).max(initial=0) >= STILL:
             moves = np.abs(values - values[0]).max() >= STILL
             keys(node, path, values if moves else values[:1])
@@ -82,7 +82,7 @@ def _times(document: Document, times: NDArray[np.float32], known: dict[int, int]
 
 
 def _xyzw(rotations: Floats) -> Floats:
-    """Quaternions as glTF orders them, of q and −q the one on the side of the frame before."""
+    """Return quaternions in glTF's order; of q and −q the one nearer to the frame before."""
     dots = (rotations[1:] * rotations[:-1]).sum(axis=-1)
     first = -1.0 if rotations[0, 0] < 0 else 1.0
     signs = np.cumprod(np.concatenate([[first], np.where(dots < 0, -1.0, 1.0)]))
@@ -90,7 +90,7 @@ def _xyzw(rotations: Floats) -> Floats:
 
 
 def _title(labels: Sequence[Label]) -> str:
-    """Name of the animation: what is signed at the outermost level."""
+    """Return the name of the animation: the labels of the outermost level."""
     return " ".join(label.text for label in labels if label.depth == 0) or "azee"
 
 

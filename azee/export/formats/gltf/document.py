@@ -1,4 +1,4 @@
-"""A glTF 2.0 document under construction: its JSON objects, its one buffer, and the GLB around."""
+"""Builds a glTF 2.0 document: its JSON objects, its one buffer, and the GLB container."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ELEMENT_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
 
 
 class Target(IntEnum):
-    """What a buffer view is for; only vertices and indices have one."""
+    """The use of a buffer view; only vertices and indices have one."""
 
     VERTICES = 34962
     INDICES = 34963

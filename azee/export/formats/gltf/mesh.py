@@ -20,7 +20,7 @@ INFLUENCES = 4
 
 
 def add_mesh(document: Document, mesh: BodyMesh, name: str) -> int:
-    """Add the mesh in its own posture; returns its index.
+    """Add the mesh in its bind pose; returns its index.
 
     Every primitive has all morph targets, as glTF asks; what a target leaves alone costs nothing.
     The names of the targets stand in the mesh's extras, where viewers look for them.
@@ -74,13 +74,13 @@ def _vertices(
 
 
 def _unit32(normals: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Let a vertex without a normal look forward: glTF wants every one of length 1."""
+    """Give a vertex without a normal one that points forward, since glTF requires length 1."""
     bare = np.linalg.norm(normals, axis=1, keepdims=True) < 0.5
     return np.where(bare, (0, 0, 1), normals).astype(np.float32)
 
 
 def _colours(colours: NDArray[np.float64]) -> NDArray[np.uint16]:
-    """Linear RGB as opaque RGBA; 16 bits, for 8 are too coarse in the dark when linear."""
+    """Return linear RGB as opaque RGBA with 16 bits; 8 are too coarse in the dark when linear."""
     opaque = np.hstack([colours, np.ones((len(colours), 1))])
     return np.round(opaque * FULL).astype(np.uint16)
 
@@ -88,10 +88,10 @@ def _colours(colours: NDArray[np.float64]) -> NDArray[np.uint16]:
 def _influences(
     document: Document, joints: NDArray[np.int64], weights: NDArray[np.float64]
 ) -> dict[str, int]:
-    """Joints and weights in sets of four; a further set only where a vertex needs it.
+    """Return joints and weights in sets of four; a further set only if a vertex needs it.
 
-    Weights are rounded to parts of 65535 and the rest given to the heaviest, so that they sum to
-    1 exactly. An influence without weight names joint 0, as glTF asks.
+    Weights are rounded to parts of 65535 and the remainder goes to the heaviest, so that they sum
+    to 1 exactly. An influence without weight names joint 0, as glTF requires.
     """
     parts = np.round(weights * FULL).astype(np.int64)
     parts[:, 0] += FULL - parts.sum(axis=1)
@@ -112,7 +112,7 @@ def _influences(
 
 
 class _Targets:
-    """Morph targets of a whole mesh, to be shared out among its primitives."""
+    """Morph targets of a whole mesh, to be divided among its primitives."""
 
     def __init__(self, targets: list[MorphTarget]) -> None:
         self._moves = _Changes([(t.moved, t.moves) for t in targets])

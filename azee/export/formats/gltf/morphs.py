@@ -20,10 +20,10 @@ LEAST_TURN = 2e-3
 
 @dataclass(frozen=True, eq=False)
 class MorphTarget:
-    """What one face unit adds at weight 1.
+    """The change of the surface by one face unit at weight 1.
 
     moves: (n, 3) metres, to the vertices `moved` (n,), increasing. turns: (m, 3), to the unit
-    normals of the vertices `turned` (m,).
+        normals of the vertices `turned` (m,).
     """
 
     moved: Rows

@@ -9,9 +9,9 @@ from azee_rig.skeleton import Skeleton
 
 
 def add_joints(document: Document, skeleton: Skeleton) -> tuple[int, ...]:
-    """Add a node per joint, at rest and under its own name; returns the nodes' indices.
+    """Add a node per joint, with its own name, in the rest pose; returns the nodes' indices.
 
-    At rest every joint's axes are the world's, so a node needs no more than its offset.
+    In the rest pose every joint's axes are the world's, so a node needs only its offset.
     """
     start = len(document.objects.get("nodes", ()))
     children: list[list[int]] = [[] for _ in skeleton.names]

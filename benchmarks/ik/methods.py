@@ -53,7 +53,7 @@ FEW_STARTS = 4
 
 
 def ours(options: SolveOptions) -> Method:
-    """Run `solve`: problems are built, grouped, solved, relaxed and measured again."""
+    """Run `solve`: problems are built, grouped, solved, widened and measured again."""
 
     def method(rig: Rig, problem: Problem) -> Answer:
         idle = rig.coordinates.idle
@@ -85,7 +85,7 @@ def _answer(report: SolveReport, clock: Clock) -> Answer:
 
 
 def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
-    """Run our descents alone, with posture and comfort cost; the time excludes laying out."""
+    """Run our descents alone, with posture and joint-limit cost; laying out is not timed."""
     idle = np.array(rig.coordinates.idle)
     evaluator = Evaluator(rig, Side.RIGHT)
     moving = anatomy(rig.chain, rig.coordinates).moved_by(problem.free)

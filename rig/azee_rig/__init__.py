@@ -1,1 +1,1 @@
-"""A body that can sign: skeleton, joint coordinates and limits, sites, skin and morphs."""
+"""A signing body: skeleton, joint coordinates and limits, sites, skin and morphs."""

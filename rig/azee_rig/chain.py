@@ -1,11 +1,12 @@
-"""The kinematic chain that inverse kinematics moves: AZee bones coupled onto the body's joints.
+"""The kinematic chain that inverse kinematics moves: AZee bones coupled to the body's joints.
 
 Every node has a frame whose columns are x, dir and nrm (x = dir × nrm). Its rotation is
 
     R_node = R_parent · zero_node · Π_d rot(axis_d, scale_d · q[coordinate_d])
 
 over its degrees of freedom in order, and its origin R_parent · offset_node + p_parent. One
-coordinate may drive several nodes (the trunk's are spread over the spine), with a share each.
+coordinate may drive several nodes with a share each, as those of the trunk are spread over the
+spine.
 """
 
 from __future__ import annotations
@@ -87,7 +88,7 @@ class Chain:
 
     @cached_property
     def _rounds(self) -> list[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-        """Nodes that have a first degree of freedom, a second, a third, and which those are."""
+        """Nodes with a first, a second and a third degree of freedom, and these degrees."""
         counts = np.diff(self.dof_start)
         rounds = []
         for k in range(int(counts.max(initial=0))):
@@ -97,7 +98,7 @@ class Chain:
 
     @cached_property
     def _generations(self) -> list[NDArray[np.int64]]:
-        """Nodes by how many stand above them: a generation can be placed at once."""
+        """Nodes by the number of their ancestors: one generation can be computed at once."""
         depth = np.zeros(len(self.parents), dtype=np.int64)
         for node, parent in enumerate(self.parents):
             depth[node] = depth[parent] + 1 if parent >= 0 else 0

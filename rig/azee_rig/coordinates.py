@@ -16,9 +16,8 @@ class Coordinates:
     """The coordinates of a rig, radians, counted from the zero pose.
 
     names: (V,), such as `f_arm_R.pronation`, `index_L_1.flexion`, `back_1.axial`.
-    lower, upper: (V,) limits. idle: (V,) the resting posture. bind: (V,) the mesh's own posture.
-    stiffness: (V,) how unwillingly each moves: weights of the posture term (trunk 6, clavicle 3,
-    wrist 1.5, others 1).
+    lower, upper: (V,) limits. idle: (V,) the idle posture. bind: (V,) the mesh's own posture.
+    stiffness: (V,) weights of the posture cost (trunk 6, clavicle 3, wrist 1.5, others 1).
     """
 
     names: tuple[str, ...]

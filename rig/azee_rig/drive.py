@@ -1,15 +1,14 @@
 """How the joints of a body follow the chain: whole nodes, shared twist, shared bends.
 
-A joint takes the rotation of one node, counted from the posture that the mesh was modelled in, so
-that the mesh is itself exactly there. Two refinements keep skin from collapsing without leaving
-what BVH and glTF can play:
+A joint takes the rotation of one node, counted from the posture in which the mesh was modelled, so
+that the mesh is unchanged in this posture. Two refinements keep skin from collapsing; BVH and glTF
+can play both:
 
-- twist: a joint of a limb leaves out a part of the turn about the limb's axis, so that pronation
-  spreads along the forearm instead of wringing one joint;
-- helpers: a helper joint turns by a share of what its neighbour bends, and carries the skin in
-  between.
+- twist: a joint of a limb leaves out a part of the turn about the limb's axis, so that pronation is
+  spread along the forearm instead of twisting one joint;
+- helpers: a helper joint turns by a share of its neighbour's bend, and carries the skin in between.
 
-Joints stay where the chain puts them: twisted joints lie on their limb's axis, helpers at their
+The chain gives the places of joints: twisted joints lie on their limb's axis, helpers at their
 neighbour's origin.
 """
 
@@ -29,12 +28,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Drive:
-    """Who drives each of the J joints.
+    """What drives each of the J joints.
 
-    node: (J,) node whose rotation the joint takes; −1 for a joint that stays at rest.
-    twist_coordinate: (J,) coordinate of the turn that is partly left out; −1 where none is.
+    node: (J,) node whose rotation the joint takes; −1 for a joint that stays in the rest pose.
+    twist_coordinate: (J,) coordinate of the turn that is partly left out; −1 for none.
     twist_left_out: (J,) signed share of it that is left out.
-    helper_of: (J,) joint whose bend a helper shares, both having the same parent; −1 for others.
+    helper_of: (J,) joint whose bend a helper shares, both with the same parent; −1 for others.
     helper_share: (J,) share of that bend, 0 … 1.
     bind: (B, 3, 3) frames of the nodes in the mesh's own posture.
     """

@@ -1,13 +1,13 @@
-"""Compiled loops, kept on disk as machine code and loaded without numba.
+"""Compiled loops, stored on disk as machine code and loaded without numba.
 
-numba compiles, once on a machine. To import it and to let it load what it has kept takes longer
-than to solve a sentence, so on Linux the machine code is kept here: an object file made from the
-compiled function's LLVM code, which llvmlite links in a few milliseconds. Elsewhere, and where
-anything about that fails, numba does it, as slowly as ever and with the same results.
+numba compiles them once per machine. Importing numba and loading its cache takes longer than
+solving a sentence. So on Linux the machine code is stored here: an object file made from the
+compiled function's LLVM code, which llvmlite links in a few milliseconds. On other systems, and if
+anything of this fails, numba does it, more slowly and with the same results.
 
-A kept file is good for the sources that it was made from, whichever file they stand in, for one
-version of LLVM and one processor. It is written beside its place and renamed, and checked by its
-own sum when it is read.
+A stored file is valid for the sources that it was made from, in all their files, for one version of
+LLVM and one processor. It is written beside its place and renamed, and its checksum is verified
+when it is read.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 KEEPS = sys.platform == "linux" and struct.calcsize("P") == 8
-"""Whether machine code is kept here. If not, numba is told to keep its own."""
+"""Whether machine code is stored here. If not, numba stores its own."""
 
 SUM_BYTES = 32
 LIBRARY = frozenset(
@@ -48,7 +48,7 @@ TRAPS = frozenset(
         "numba_unpickle",
     }
 )
-"""Functions of numba's that every compiled function names for where it would raise or free."""
+"""Functions of numba that every compiled function names for raising errors or freeing memory."""
 
 _DECLARED = re.compile(r'^declare (.*?@"?([\w.$]+)"?\(.*)$', re.MULTILINE)
 _EXTERNAL = re.compile(
@@ -57,27 +57,24 @@ _EXTERNAL = re.compile(
 
 
 class Unkept(Exception):  # noqa: N818 - it is no fault
-    """Machine code can neither be kept nor loaded here; numba can do it."""
+    """Machine code can neither be stored nor loaded here; numba can do it."""
 
 
 class Kernel:
-    """A function that numba compiles, given by name, loaded when first asked for.
+    """A function that numba compiles, given by name, loaded on first use.
 
-    It is a `cfunc` of one pointer, to words that are numbers or addresses of arrays, or one whose
-    address somebody else calls.
+    It is a `cfunc` that takes one pointer, to words that are numbers or addresses of arrays, or one
+    whose address another library calls.
     """
 
     def __init__(self, module: str, name: str, *sources: str) -> None:
-        """Name it.
-
-        Args: sources: modules or packages beside its own whose code goes into it.
-        """
+        """Args: sources: modules or packages, beside its own, whose code is part of it."""
         self.module, self.name = module, name
         self._sources = (module, *sources)
 
     @cached_property
     def address(self) -> int:
-        """Where it lies in memory."""
+        """Its address in memory."""
         if KEEPS:
             with suppress(Unkept):
                 return _linked(self.name, _symbol(self.name), self._kept())
@@ -88,7 +85,7 @@ class Kernel:
         return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self.address)
 
     def __call__(self, *words: int | NDArray[Any]) -> None:
-        """Call it with numbers and arrays, which must lie in memory row by row."""
+        """Call it with numbers and arrays, which must be contiguous in memory, row by row."""
         block = np.array([_word(word) for word in words], dtype=np.int64)
         self._function(block.ctypes.data)
 
@@ -96,7 +93,7 @@ class Kernel:
         return getattr(import_module(self.module), self.name)
 
     def _kept(self) -> bytes:
-        """Machine code from disk, made first if it is not there. Raises: Unkept."""
+        """Return machine code from disk, after making it if necessary. Raises: Unkept."""
         digest, machine = self._digest(), _machine()
         file = f"{self.module}.{self.name}-{machine}-{digest}.o"
         folders = list(_folders(self._files()[0]))
@@ -113,7 +110,7 @@ class Kernel:
         return code
 
     def _files(self) -> list[Path]:
-        """Return the sources that go into it."""
+        """Return the sources that are part of it."""
         files: list[Path] = []
         for name in self._sources:
             spec = find_spec(name)
@@ -140,13 +137,13 @@ def _word(word: int | NDArray[Any]) -> int:
 
 
 def _symbol(name: str) -> str:
-    """Name of a kernel in its object file."""
+    """Return the name of a kernel in its object file."""
     return f"azee_{name}"
 
 
 @lru_cache(maxsize=1)
 def _machine() -> str:
-    """Processor and version of LLVM, as a short name."""
+    """Return processor and version of LLVM, as a short name."""
     llvm = _llvm()
     features = llvm.get_host_cpu_features().flatten()
     told = (llvm.get_host_cpu_name(), features, *map(str, llvm.llvm_version_info))
@@ -155,11 +152,11 @@ def _machine() -> str:
 
 @lru_cache(maxsize=1)
 def _llvm() -> Any:
-    """Return llvmlite's binding, ready to work. Raises: Unkept."""
+    """Return llvmlite's binding, initialised. Raises: Unkept."""
     try:
         import llvmlite.binding as llvm
 
-        with suppress(RuntimeError):  # newer versions do it by themselves, and refuse
+        with suppress(RuntimeError):  # newer versions do it themselves, and refuse
             llvm.initialize()
         llvm.initialize_native_target()
         llvm.initialize_native_asmprinter()
@@ -180,7 +177,7 @@ def _target_machine() -> Any:
 
 
 def _machine_code(source: str, symbol: str) -> bytes:
-    """Object code of a compiled function, which may call nothing but C. Raises: Unkept."""
+    """Return object code of a compiled function, which may call only C. Raises: Unkept."""
     llvm = _llvm()
     try:
         module = llvm.parse_assembly(_closed(source))
@@ -199,11 +196,10 @@ def _machine_code(source: str, symbol: str) -> bytes:
 
 
 def _closed(source: str) -> str:
-    """Let LLVM code name nothing of numba's and Python's.
+    """Remove the names of numba's and Python's functions from LLVM code.
 
-    numba names functions for what may go wrong: raising, freeing. In our kernels nothing does, so
-    that they are never called; if one ever were, the process would end. Whatever else a function
-    names stays, and is found out.
+    numba names functions for errors and for freeing memory. Our kernels never call them; if one
+    did, the process would end. Other names stay, and are checked later.
     """
 
     def defined(found: re.Match[str]) -> str:
@@ -218,7 +214,7 @@ def _closed(source: str) -> str:
 
 
 def _undefined(code: bytes) -> frozenset[str]:
-    """Names that an object file (ELF, 64 bits) leaves to be found. Raises: Unkept."""
+    """Return names that an object file (ELF, 64 bits) leaves undefined. Raises: Unkept."""
     try:
         if code[:6] != b"\x7fELF\x02\x01":
             raise Unkept("no ELF")
@@ -227,7 +223,7 @@ def _undefined(code: bytes) -> frozenset[str]:
         sections = [struct.unpack_from("<IIQQQQIIQQ", code, table + n * size) for n in range(count)]
         names = set()
         for kind, at, length, link in ((s[1], s[4], s[5], s[6]) for s in sections):
-            if kind != 2:  # not a table of symbols
+            if kind != 2:  # not a symbol table
                 continue
             for entry in range(at, at + length, 24):
                 name, _, _, section = struct.unpack_from("<IBBH", code, entry)
@@ -240,11 +236,11 @@ def _undefined(code: bytes) -> frozenset[str]:
 
 
 _engines: list[Any] = []
-"""What holds linked code in memory."""
+"""Keeps linked code in memory."""
 
 
 def _linked(name: str, symbol: str, code: bytes) -> int:
-    """Link machine code into this process; return where its entry lies. Raises: Unkept."""
+    """Link machine code into this process; return the address of its entry. Raises: Unkept."""
     llvm = _llvm()
     try:
         engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target_machine())
@@ -260,7 +256,7 @@ def _linked(name: str, symbol: str, code: bytes) -> int:
 
 
 def _folders(source: Path) -> Iterator[Path]:
-    """Where machine code may lie: beside the source, else in the user's cache."""
+    """Yield folders for machine code: beside the source, else in the user's cache."""
     named = os.environ.get("NUMBA_CACHE_DIR")
     if named:
         yield Path(named)
@@ -272,7 +268,7 @@ def _folders(source: Path) -> Iterator[Path]:
 
 
 def _store(folder: Path, file: str, data: bytes) -> None:
-    """Write a file whole or not at all; what it replaces on this machine goes."""
+    """Write a file completely or not at all; delete the files of this machine that it replaces."""
     folder.mkdir(parents=True, exist_ok=True)
     beside = folder / f"{file}.{os.getpid()}"
     try:

@@ -1,7 +1,7 @@
-"""The mirror image of a posture: what the same body shows in a mirror between left and right.
+"""The mirror image of a posture, in a mirror between left and right.
 
-Coordinates are anatomical, so that those of the two sides swap without a change of sign; what
-turns or leans the middle of the body, and the gaze, turns to the other side.
+Coordinates are anatomical, so those of the two sides swap without a change of sign. Turns and leans
+of the middle of the body, and the gaze, change their sign.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _SIDE = re.compile(r"(?<=_)[LR](?=_|\.|$)", re.ASCII)
 _UNIT_SIDE = re.compile(r"Left|Right|(?<=-)(?:left|right)(?=-)", re.ASCII)
 _OTHER = {"L": "R", "R": "L", "Left": "Right", "Right": "Left", "left": "right", "right": "left"}
 SIDEWAYS = ("axial", "lateral")
-"""Movements of an unpaired part that a mirror turns round; `yaw`, of the eyes, is another."""
+"""Movements of an unpaired part that change their sign; `yaw`, of the eyes, is another."""
 
 
 def mirrored(coordinates: Coordinates, q: Floats) -> Floats:
@@ -39,14 +39,14 @@ def mirrored(coordinates: Coordinates, q: Floats) -> Floats:
 
 
 def other_side(name: str) -> str:
-    """Name of a bone, coordinate or site on the other side; one without a side is its own."""
+    """Return the bone, coordinate or site of the other side; one without a side stays itself."""
     return _swapped(_SIDE, name)
 
 
 def mirrored_units(units: Sequence[str]) -> tuple[str, ...]:
-    """Names of the face units on the other side: `eyeBlinkLeft` for `eyeBlinkRight`.
+    """Return names of the face units on the other side: `eyeBlinkLeft` for `eyeBlinkRight`.
 
-    A unit without a side is its own. `eyeLookIn…` stays inward: it too is anatomical.
+    A unit without a side stays itself. `eyeLookIn…` stays inward, since it is anatomical too.
     """
     return tuple(_swapped(_UNIT_SIDE, unit) for unit in units)
 

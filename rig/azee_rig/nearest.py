@@ -13,7 +13,7 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Nearest:
-    """For each of n points the nearest one of the surface, (n, 3), its triangle and distance."""
+    """For each of n points, the nearest one of the surface, (n, 3), its triangle and distance."""
 
     points: Floats
     triangles: Ints
@@ -23,8 +23,8 @@ class Nearest:
 def nearest(vertices: Floats, triangles: Ints, points: Floats) -> Nearest:
     """Find the nearest points of triangles (F, 3) on vertices (N, 3) to points (n, 3).
 
-    A triangle lies within a ball about its middle; only those are tried whose ball begins before
-    that of some other triangle ends.
+    Each triangle is inside a ball around its middle. Only triangles are tried whose ball begins
+    before the ball of another triangle ends.
     """
     corners = vertices[triangles]
     middles = (corners[:, 0] + corners[:, 1] + corners[:, 2]) / 3.0
@@ -49,7 +49,7 @@ def _length(v: Floats) -> Floats:
 def closest_on_triangles(corners: Floats, point: Floats) -> Floats:
     """Return the point of each triangle (n, 3, 3) that is nearest to a point (3,), (n, 3).
 
-    The foot of the perpendicular where it falls inside, else the nearest point of the edges.
+    This is the foot of the perpendicular if it is inside, else the nearest point of the edges.
     """
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     normal = np.cross(b - a, c - a)

@@ -1,4 +1,4 @@
-"""Patches of skin under points: where they go in many postures, at the cost of a few vertices."""
+"""Patches of skin under points: their places in many postures, computed from a few vertices."""
 
 from __future__ import annotations
 

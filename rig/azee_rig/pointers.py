@@ -1,4 +1,4 @@
-"""Arrays at addresses, for kernels that are handed words: nothing is copied, nothing can fail."""
+"""Arrays at addresses, for kernels that take words: nothing is copied, nothing can fail."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numba.extending import intrinsic
 carray: Any = getattr(numba, "carray")  # noqa: B009 - its stubs hide the name
 types: Any = numba.types
 WORDS = types.void(types.CPointer(types.int64))
-"""Signature of a kernel that is handed words: numbers, and addresses of arrays."""
+"""Signature of a kernel that takes words: numbers, and addresses of arrays."""
 
 
 INNER: dict[str, Any] = {
@@ -20,12 +20,12 @@ INNER: dict[str, Any] = {
     "no_cpython_wrapper": True,
     "no_cfunc_wrapper": True,
 }
-"""Options of functions that only other compiled ones call: wrappers take a sixth of compiling."""
+"""Options of functions that only compiled ones call: wrappers take a sixth of compiling."""
 
 
 @intrinsic
 def reals_at(context, address):
-    """Real numbers at an address."""
+    """Return real numbers at an address."""
 
     def code(context, builder, signature, arguments):
         return builder.inttoptr(arguments[0], ir.DoubleType().as_pointer())
@@ -35,7 +35,7 @@ def reals_at(context, address):
 
 @intrinsic
 def integers_at(context, address):
-    """Integers at an address."""
+    """Return integers at an address."""
 
     def code(context, builder, signature, arguments):
         return builder.inttoptr(arguments[0], ir.IntType(64).as_pointer())
@@ -45,11 +45,11 @@ def integers_at(context, address):
 
 @njit(**INNER)
 def reals(address, shape):
-    """Array of reals of some shape."""
+    """Return an array of reals of some shape."""
     return carray(reals_at(address), shape)  # type: ignore[call-arg]
 
 
 @njit(**INNER)
 def integers(address, shape):
-    """Array of integers of some shape."""
+    """Return an array of integers of some shape."""
     return carray(integers_at(address), shape)  # type: ignore[call-arg]

@@ -1,10 +1,10 @@
-"""Coordinates from joint rotations: the way back from what `Rig.pose` gives.
+"""Coordinates from joint rotations: the inverse of `Rig.pose`.
 
-Joints follow the chain in several ways: whole, with their twist shared out, several by one
-coordinate. None of that is undone case by case; the coordinates are those whose posture has the
-joints' rotations, found by damped Gauss–Newton for all frames at once. What differs is measured as
-a rotation vector per joint, relative to its parent, so that few coordinates act on each joint and
-those that share none are varied together when the Jacobian is taken.
+Joints follow the chain in several ways: whole, with their twist shared, several by one coordinate.
+These ways are not inverted one by one. Damped Gauss–Newton finds, for all frames at once, the
+coordinates whose posture has the joints' rotations. The error is a rotation vector per joint,
+relative to its parent, so that few coordinates act on each joint. Coordinates without a common
+joint are varied together for the Jacobian.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ STEP_RAD = 1e-6
 SWEEPS = 60
 """Most Gauss–Newton steps from one start."""
 EXACT_RAD = 1e-5
-"""Below this a posture has the rotations it was asked for; files round to 1e-8."""
+"""Below this error, a posture has the wanted rotations; files round to 1e-8."""
 STARTS, SEED = 6, 2010
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Recovered:
-    """coordinates: (T, V) radians, inside the limits. error_rad: (T,) worst turn of any joint."""
+    """coordinates: (T, V) radians, within the limits. error_rad: (T,) worst turn of any joint."""
 
     coordinates: Floats
     error_rad: Floats
@@ -37,11 +37,11 @@ class Recovered:
 def recover(rig: Rig, rotations: Floats) -> Recovered:
     """Return the coordinates whose postures have these joint rotations.
 
-    Frames that one start leaves unexplained try again from a neighbour that was explained, then
-    from random postures; what no start explains keeps the nearest posture found.
+    Frames that one start does not solve try again from a solved neighbour, then from random
+    postures. If no start solves a frame, it keeps the nearest posture found.
 
     Args: rotations: (T, J, 4) unit quaternions wxyz relative to the parents, as in `Pose`. Joints
-        that no coordinate drives are not looked at.
+        that no coordinate drives are ignored.
     """
     fit = _Fit(rig)
     c = rig.coordinates
@@ -84,7 +84,7 @@ class _Fit:
         self.acts = np.repeat(acts, 3, axis=1)
 
     def improved(self, q: Floats, rotations: Floats, chunk: int = 256) -> tuple[Floats, Floats]:
-        """Improve postures (T, V); returns them and what is left in each, radians."""
+        """Improve postures (T, V); return them and the remaining error of each, radians."""
         parts = [
             self._improved(q[i : i + chunk], rotations[i : i + chunk])
             for i in range(0, len(q), chunk)
@@ -116,7 +116,7 @@ class _Fit:
         return q, turns.max(axis=1)
 
     def _residual(self, q: Floats, wanted: Floats) -> Floats:
-        """Rotation vectors from what the joints have to what they should have, (T, 3 joints)."""
+        """Return rotation vectors from the joints' rotations to the wanted ones, (T, 3 joints)."""
         w, x, y, z = np.moveaxis(self.rig.pose(q).rotations[:, self.joints], -1, 0)
         a, b, c, d = np.moveaxis(wanted, -1, 0)
         scalar = w * a + x * b + y * c + z * d
@@ -146,7 +146,7 @@ class _Fit:
 
 
 def _independent(acts: NDArray[np.bool_]) -> list[list[int]]:
-    """Spread coordinates over as few rounds as needed: none of a round act on the same joint."""
+    """Distribute coordinates over few rounds: none of a round act on the same joint."""
     rounds: list[tuple[list[int], NDArray[np.bool_]]] = []
     for v, joints in enumerate(acts):
         for members, taken in rounds:

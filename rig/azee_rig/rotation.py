@@ -67,9 +67,9 @@ def to_matrices(q: Floats) -> Floats:
 
 
 def part_turn(q: Floats, share: float) -> Floats:
-    """Rotations by a share, 0 … 1, of the angle about the same axes: unit quaternions, (…, 4).
+    """Return rotations by a share, 0 … 1, of the angle about the same axes: quaternions, (…, 4).
 
-    The shorter way round: q with w < 0 counts as −q.
+    The shorter way is taken: q with w < 0 counts as −q.
     """
     q = np.where(q[..., :1] < 0.0, -q, q)
     sine = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)

@@ -1,4 +1,4 @@
-"""Measures how true a rig's sites are to its skin: as it was modelled, and over every joint."""
+"""Measures how far a rig's sites are from its skin: as modelled, and over every joint."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from azee_rig.rig import Rig
 Floats = NDArray[np.float64]
 
 AT_BIND_M, OVER_RANGE_M, MIRROR_M = 0.002, 0.006, 0.002
-"""What is asked for: off the skin at bind and over the range of a joint, between the sides."""
+"""Bounds: distance from the skin at bind and over the range of a joint, and between the sides."""
 OUTWARD = 0.3
-"""Cosine between a site's normal and that of the skin, at least."""
+"""Least cosine between a site's normal and that of the skin."""
 SURE_M = 0.0025
-"""A site that leaves its patch of skin by less needs no search for the nearest skin."""
+"""If a site leaves its patch of skin by less, the nearest skin is not searched."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class OverRange:
 
     @property
     def is_near(self) -> bool:
-        """Whether it stays as near to the skin as it should."""
+        """Whether its distance from the skin is within the bound."""
         return abs(self.distance_m) <= OVER_RANGE_M
 
 
@@ -102,7 +102,7 @@ def at_bind(rig: Rig) -> tuple[AtBind, ...]:
 
 
 def over_range(rig: Rig) -> tuple[OverRange, ...]:
-    """Measure all sites over the range of each joint, all else idle; farthest first.
+    """Measure all sites over the range of each joint, all other joints at idle; farthest first.
 
     A joint's coordinates go to their limits in every combination, and to their middles, on both
     sides at once.

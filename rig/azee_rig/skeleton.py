@@ -20,11 +20,11 @@ def frozen(array: ArrayLike, dtype: type[Number]) -> NDArray[Number]:
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
-    """Joints of a body at rest. In the rest pose every joint's axes are the world's.
+    """Joints of a body in the rest pose, in which every joint's axes are the world's.
 
     names: (J,), parents before children.
     parents: (J,) index of the parent, −1 for the root.
-    offsets: (J, 3) metres, from the parent's origin at rest; the root's from the world's.
+    offsets: (J, 3) metres, from the parent's origin; the root's from the world's.
     """
 
     names: tuple[str, ...]
@@ -41,7 +41,7 @@ class Skeleton:
 
     @property
     def rest_positions(self) -> NDArray[np.float64]:
-        """World positions of the joints at rest, (J, 3), metres."""
+        """World positions of the joints in the rest pose, (J, 3), metres."""
         out = np.array(self.offsets)
         for j, p in enumerate(self.parents):
             if p >= 0:

@@ -34,9 +34,9 @@ def joint_frames(skeleton: Skeleton, pose: Pose) -> tuple[Floats, Floats]:
 def skin(
     mesh: BodyMesh, skeleton: Skeleton, pose: Pose, unit_weights: Floats | None = None
 ) -> Floats:
-    """Vertices (N, 3) of one posture: shapes first, then v' = Σ_j w_j (R_j (v − p̄_j) + p_j).
+    """Return vertices (N, 3) of a posture: shapes, then v' = Σ_j w_j (R_j (v − p̄_j) + p_j).
 
-    p̄_j is joint j's place at rest, where every joint's axes are the world's.
+    p̄_j is joint j's place in the rest pose, where every joint's axes are the world's.
 
     Args: unit_weights: (U,) weights of the face units, in the mesh's order.
     """

@@ -1,6 +1,7 @@
-"""The two loops over all of a body's skin, compiled: blending and normals.
+"""The two compiled loops over all of a body's skin: blending and normals.
 
-No thread, no fast-math: the same input gives the same bits. Only `machine_code` imports this.
+There is no thread and no fast-math: the same input gives the same bits. Only `machine_code` imports
+this.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ def blended(words):
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
 def smooth_normals(words):
-    """Work out unit normals (N, 3), each the mean of its triangles' by area; 0 where there is none.
+    """Compute unit normals (N, 3), each the mean of its triangles' by area; 0 if there is none.
 
     Words: N, F, vertices (N, 3), triangles (F, 3), and the result (N, 3).
     """
@@ -75,13 +76,13 @@ def smooth_normals(words):
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
 def unit_turns(words):
-    """Work out how one face unit turns normals: only triangles that it moves are looked at.
+    """Compute how one face unit turns normals; only triangles that it moves are visited.
 
-    Words: N, F, n, stamp, which no call before had; rows (n,) that move, by deltas (n, 3);
-    vertices (N, 3), triangles (F, 3), those around vertices, one vertex' after the other's (3F,),
-    and where they start (N + 1,), sums of triangles' normals by area (N, 3); room for shifts
-    (N, 3), which are zero, for changes (N, 3), and for stamps of triangles (F,) and vertices (N,);
-    results: how many normals turn (1,), whose (N,), and their new directions (N, 3).
+    Words: N, F, n, stamp, which no call before had; rows (n,) that move, by deltas (n, 3); vertices
+    (N, 3), triangles (F, 3), those around vertices, one vertex' after the other's (3F,), and where
+    they start (N + 1,), sums of triangles' normals by area (N, 3); room for shifts (N, 3), which
+    are zero, for changes (N, 3), and for stamps of triangles (F,) and vertices (N,); results: how
+    many normals turn (1,), whose (N,), and their new directions (N, 3).
     """
     w = carray(words, (18,))
     count, faces, moved, stamp = w[0], w[1], w[2], w[3]

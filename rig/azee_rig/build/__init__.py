@@ -1,1 +1,1 @@
-"""Making a rig from a body: chain, sites, capsules, dress. Needs trimesh; playing does not."""
+"""Makes a rig from a body: chain, sites, capsules, clothes. Needs trimesh; playing does not."""

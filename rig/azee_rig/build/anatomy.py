@@ -1,4 +1,4 @@
-"""Where an AZee bone begins and points, on any body: the input of the chain builder."""
+"""The places and directions of AZee's bones on any body: the input of the chain builder."""
 
 from __future__ import annotations
 
@@ -19,12 +19,13 @@ PHALANGES = (1, 2, 3)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Anatomy:
-    """Joint places of a body in its own posture, metres, by AZee bone.
+    """Places of a body's joints in its own posture, metres, by AZee bone.
 
-    joints: per bone the places of its joints, proximal first; all AZee bones are there.
+    joints: per bone the places of its joints, proximal first; all AZee bones are present.
     tips: per digit, such as `index_L`, the end of its last phalanx.
-    head_top: (3,). gaze: per eye a unit vector. thumb_nail: per side the thumbnail's outward unit
-    normal: it tells the plane in which the thumb bends better than the joints can.
+    head_top: (3,). gaze: per eye a unit vector.
+    thumb_nail: per side the outward unit normal of the thumbnail, which determines the plane in
+        which the thumb bends better than its joints do.
     """
 
     joints: Mapping[str, Sequence[Floats]]
@@ -34,7 +35,7 @@ class Anatomy:
     thumb_nail: Mapping[str, Floats]
 
     def origin(self, bone: str) -> Floats:
-        """Proximal joint of a bone."""
+        """Return the place of a bone's proximal joint."""
         return self.joints[bone][0]
 
 
@@ -43,7 +44,7 @@ def read_anatomy(
     bones: Mapping[str, Sequence[str]],
     nails: Mapping[str, NDArray[np.int64]],
 ) -> Anatomy:
-    """Take the anatomy from a body through its bones-map."""
+    """Read the anatomy of a body through its bones-map."""
     place = dict(zip(body.joints, body.heads, strict=True))
     end = dict(zip(body.joints, body.tails, strict=True))
     joints = {bone: [place[j] for j in chain] for bone, chain in bones.items()}
@@ -58,12 +59,12 @@ def read_anatomy(
 
 
 def unit(v: Floats) -> Floats:
-    """Return v at length one."""
+    """Return v with length one."""
     return np.asarray(v / np.linalg.norm(v))
 
 
 def _normal(body: Body, rows: NDArray[np.int64]) -> Floats:
-    """Mean outward normal of the faces that lie wholly among some vertices."""
+    """Return the mean outward normal of the faces whose vertices are all among some vertices."""
     quads = body.faces[body.faces[:, 3] >= 0]
     quads = quads[np.isin(quads, rows).all(axis=1)]
     corner = body.vertices[quads]

@@ -1,12 +1,12 @@
-"""Helper joints that share a bend, so that skin keeps its flesh where it is bent far.
+"""Helper joints that share a bend, so that skin keeps its volume at large bends.
 
-Each helper lies beside the joint that bends and takes a share of its turn; skin that both sides
-of the bend pull at lies between the two helpers that turn as it should. With four steps instead
-of one, skin on the outside of a bend of 145° keeps 95 % of its distance from the axis, not 30 %.
+Each helper lies beside the joint that bends and takes a share of its turn. Skin that both sides of
+the bend pull at lies between the two helpers whose turns are nearest to its own. With four steps
+instead of one, skin on the outside of a bend of 145° keeps 95 % of its distance from the axis, not
+30 %.
 
-Flesh that a crease presses out has to come out elsewhere. Joints here only turn, for that is what
-every format can play; but a helper that turns about a point beside the axis moves its skin
-outward as it turns.
+Flesh that a crease displaces has to move elsewhere. Joints here only rotate, since every format can
+play rotations. But a helper that rotates about a point beside the axis moves its skin outward.
 """
 
 from __future__ import annotations
@@ -27,11 +27,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Bend:
-    """Helpers that share the bend of a joint evenly, with what it is bent against.
+    """Helpers that share the bend of a joint evenly.
 
-    joint: the one that bends. near: joints that carry the skin before the bend. helpers: names,
-    and how far each pushes its skin outward when the joint is bent as far as it goes, in metres;
-    the k-th of n takes k / (n + 1) of the bend. bone: the AZee bone that the joint belongs to.
+    joint: the one that bends. near: joints that carry the skin before the bend.
+    helpers: names, and how far each moves its skin outward at the largest bend of the joint,
+        metres; the k-th of n takes k / (n + 1) of the bend.
+    bone: the AZee bone that the joint belongs to.
     """
 
     joint: str
@@ -41,15 +42,15 @@ class Bend:
 
     @property
     def shares(self) -> dict[str, float]:
-        """Share of the bend per helper."""
+        """Shares of the bend per helper."""
         return {h: k / (len(self.helpers) + 1) for k, h in enumerate(self.helpers, start=1)}
 
     def pivots(self, built: BuiltChain, coordinates: Coordinates) -> dict[str, Floats]:
-        """Where each helper turns, from the joint's own place in the mesh's posture, metres.
+        """Return the pivots of the helpers, metres from the joint, in the mesh's posture.
 
-        At the utmost flexion a helper is turned by S from the mesh's posture. To have moved its
-        skin by d by then, it turns about the place p that solves (1 − S) p = d; d points away
-        from the crease, whose direction the bend turns by the helper's share.
+        At the largest flexion, a helper has turned by S from the mesh's posture. To have moved its
+        skin by d then, it turns about the place p that solves (1 − S) p = d. d points away from the
+        crease; the bend rotates its direction by the helper's share.
         """
         if not any(self.helpers.values()):
             return {helper: np.zeros(3) for helper in self.helpers}
@@ -74,12 +75,12 @@ class Bend:
 
 
 def share_bend(weights: Floats, near: Sequence[int], steps: Sequence[int]) -> None:
-    """Hand skin that both sides of a bend pull at to the two helpers that turn as it should.
+    """Assign skin that both sides of a bend pull at to the two helpers with the nearest turns.
 
     Skin keeps the share of the bend that it had.
 
-    Args: weights: (N, J), changed. near: columns of the joints before the bend; what they keep is
-    divided among them as before. steps: columns of the helpers, then of the joint that bends.
+    Args: weights: (N, J), changed. near: columns of the joints before the bend, whose remaining
+        weights keep their proportions. steps: columns of the helpers, then of the joint that bends.
     """
     before = weights[:, near].sum(axis=1)
     both = before + weights[:, steps[-1]]
@@ -90,5 +91,5 @@ def share_bend(weights: Floats, near: Sequence[int], steps: Sequence[int]) -> No
 
 
 def between(x: Floats, knots: Floats) -> Floats:
-    """Weights (n, k) of linear interpolation at x (n,) between k knots; beyond, the end's."""
+    """Return weights (n, k) of linear interpolation at x (n,) between k knots, constant beyond."""
     return np.stack([np.interp(x, knots, row) for row in np.eye(len(knots))], axis=1)

@@ -1,8 +1,8 @@
-"""Fits capsules to a body: what keeps arms out of the trunk and hands out of the face.
+"""Fits capsules to a body, which keep arms out of the trunk and hands out of the face.
 
-Trunk: lateral capsules, each as deep as the trunk is at its height and as wide. Limbs: along the
-bone, the radius that holds most of the skin. Hands: two, on the thumb's and on the little
-finger's side, for a palm is flat. Fingers: one per phalanx.
+Trunk: lateral capsules, as deep and as wide as the trunk at their height. Limbs: along the bone,
+with the radius that holds most of the skin. Hands: two capsules, on the thumb's and on the little
+finger's side, since a palm is flat. Fingers: one per phalanx.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from azee_rig.rig import BoneNodes, Capsules
 Floats = NDArray[np.float64]
 
 TRUNK_HEIGHTS = (0.0, 0.17, 0.34, 0.51, 0.67, 0.84)
-"""Of the way from the lowest back joint to the neck."""
+"""Heights as shares of the way from the lowest back joint to the neck."""
 BAND_M = 0.03
 LIMB_SHARE = 75.0
-"""Percentile of the skin's distance from the bone that a limb's capsule holds."""
+"""A limb's capsule holds this percentile of the skin's distances from the bone."""
 HEAD = {
     "skull": ((0.0, 0.20, -1.49), (0.0, 0.41, -1.00), 1.41),
     "face": ((0.0, -0.55, 0.22), (0.0, -1.52, 0.02), 0.43),
@@ -37,7 +37,7 @@ radius, in distances between the eyes. They came out of a least-squares fit of f
 the signer's skin without the ears: 95 % of it is less than 4 mm outside."""
 FINGER_SHARE = 66.0
 THIN = 0.2
-"""Radius of a bone that carries no skin, as a share of its length."""
+"""Radius of a bone without skin, as a share of its length."""
 COLLAR_M = 0.05
 """Half the thickness of the shoulders between neck and arm."""
 
@@ -58,7 +58,7 @@ class _Fitter:
         self.made[name] = (node, R.T @ (a - p), R.T @ (b - p), radius)
 
     def skin_of(self, *bones: str, at_least: float = 0.6) -> Floats:
-        """Vertices that some bones carry, (n, 3)."""
+        """Return the vertices that some bones carry, (n, 3)."""
         joints = [j for bone in bones for j in self.joints[bone]]
         return self.surface.mesh.vertices[self.surface.share(joints) >= at_least]
 
@@ -113,7 +113,7 @@ def _fit_trunk(fit: _Fitter) -> None:
 
 
 def _band(skin: Floats, y: float, half: float) -> Floats:
-    """Skin about as high as y; where there is none, the nearest; without any skin, a small ball."""
+    """Return the skin near height y, or else the nearest; a small ball if there is no skin."""
     if not len(skin):
         return np.asarray((0.0, y, 0.0) + half * np.vstack([np.eye(3), -np.eye(3)]))
     gap = np.abs(skin[:, 1] - y)
@@ -194,7 +194,7 @@ def _fit_limb(
 
 
 def _radius(points: Floats, a: Floats, b: Floats, share: float, from_end: float = 0.0) -> float:
-    """Percentile of the distances of the points beside a segment from its line.
+    """Return a percentile of the distances of the points beside a segment from its line.
 
     Args: from_end: share of the segment at its start that does not count (webs between fingers).
     """
@@ -226,9 +226,9 @@ def _pairs() -> Iterator[tuple[str, str]]:
 
 
 def _same_or_webbed(first: str, second: str) -> bool:
-    """Whether two phalanges of one hand belong together: one digit, or neighbours at their web.
+    """Whether two phalanges of one hand may touch: one digit, or neighbours at their web.
 
-    The thumb's web is at its first phalanx alone: the others can lie along the index.
+    The thumb's web is at its first phalanx only; the others can lie along the index finger.
     """
     (a, _, i), (b, _, j) = first.split("_"), second.split("_")
     apart = abs(DIGITS.index(a) - DIGITS.index(b))
@@ -238,7 +238,7 @@ def _same_or_webbed(first: str, second: str) -> bool:
 
 
 def _finger_pairs(names: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    """Fingers against trunk, head, the other arm and hand, other digits; thumbs, their palm."""
+    """List pairs: fingers with trunk, head, other arm and hand, other digits; thumbs with palm."""
     body = [n for n in names if n.startswith(("trunk", "collar")) or n in ("neck", *HEAD)]
     own = {
         s: [n for n in names if n.split("_")[0] in DIGITS and n.split("_")[1] == s] for s in SIDES

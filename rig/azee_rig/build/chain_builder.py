@@ -47,16 +47,19 @@ Turn = tuple[int, float, str]
 """Axis, signed share, coordinate."""
 
 RHYTHM = {"abduction": 0.16, "flexion": 0.15}
-"""Share of the arm's elevation that the clavicle takes. The shoulder blade takes 0.43° for each
-degree of the shoulder joint, 30 % of the whole (Braman et al. 2009, J Shoulder Elbow Surg 18:960),
-rather less in flexion than in abduction (Borsa et al. 2003, J Athl Train 38:12); about half of that
-is the clavicle's, 30° of 180° (range-of-motion tables)."""
+"""Share of the arm's elevation that the clavicle takes.
+
+The shoulder blade takes 0.43° for each degree of the shoulder joint, 30 % of the whole (Braman et
+al. 2009, J Shoulder Elbow Surg 18:960). In flexion it takes somewhat less than in abduction (Borsa
+et al. 2003, J Athl Train 38:12). About half of that is the clavicle's, 30° of 180° (range-of-motion
+tables).
+"""
 
 STRAIGHT_DEG, BACKWARD_DEG = 3.0, 15.0
-"""An elbow bent by less, or by less and to the wrong side, is taken for straight."""
+"""An elbow that bends by less, to either side, counts as straight."""
 SAME_M, LOCKED = 1e-6, 1e-9
 RAISED_DEG = 75.0
-"""Abduction of a mesh whose arms count as held out."""
+"""From this abduction on, the arms of a mesh count as held out."""
 
 UP, FORWARD, LEFT = np.eye(3)[1], np.eye(3)[2], np.eye(3)[0]
 TRUNK = np.eye(3)
@@ -73,7 +76,7 @@ class BuiltChain:
 
 
 def frame(direction: Floats, normal: Floats) -> Floats:
-    """Right-handed columns x, dir, nrm from a direction and a normal that need not be square."""
+    """Return right-handed columns x, dir, nrm from a direction and an approximate normal."""
     d = unit(direction)
     n = unit(normal - d * (normal @ d))
     return np.stack([np.cross(d, n), d, n], axis=1)
@@ -96,7 +99,7 @@ def build_chain(anatomy: Anatomy, coordinate_names: Sequence[str]) -> BuiltChain
 
 @dataclass(eq=False)
 class _Builder:
-    """Collects nodes; knows each node's frame in the mesh's own posture."""
+    """Collects nodes, with each node's frame in the mesh's own posture."""
 
     names: list[str] = field(default_factory=list)
     parents: list[int] = field(default_factory=list)
@@ -110,7 +113,7 @@ class _Builder:
     def node(
         self, name: str, parent: str | None, place: Floats, zero: Floats, turns: Sequence[Turn]
     ) -> Floats:
-        """Add a node whose turns' bind values are known; return its frame in the mesh."""
+        """Add a node whose turns have known bind values; return its frame in the mesh."""
         above = -1 if parent is None else self.names.index(parent)
         R = zero if above < 0 else self.frames[above] @ zero
         for axis, scale, coordinate in turns:
@@ -124,7 +127,7 @@ class _Builder:
         return R
 
     def bone(self, bone: str, nodes: Sequence[str]) -> None:
-        """Note the nodes of a bone, proximal first."""
+        """Store the nodes of a bone, proximal first."""
         self.bones[bone] = BoneNodes(self.names.index(nodes[-1]), self.names.index(nodes[0]))
 
     def finish(self, coordinate_names: Sequence[str]) -> BuiltChain:
@@ -177,8 +180,8 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     hanging = frame(-UP, FORWARD)
     a, b, c = _turn_angles(hanging.T @ in_mesh, X, NRM, DIR)
     if abs(b) > np.radians(RAISED_DEG):
-        # Held out so far, abduction hardly tells flexion from rotation: the plane of abduction is
-        # laid through the arm instead, by a turn of the hanging arm about its own axis.
+        # With arms this far out, abduction hardly separates flexion from rotation. So the plane of
+        # abduction is laid through the arm, by a turn of the hanging arm about its own axis.
         hanging = about_axis(1, np.arctan2(-sign * along_arm[2], sign * along_arm[0])) @ hanging
         a, b = 0.0, sign * float(np.arccos(np.clip(-along_arm[1], -1.0, 1.0)))
         turned = (hanging @ about_axis(NRM, b)).T @ in_mesh
@@ -222,8 +225,8 @@ def _arm(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
     palm_frame = _palm_frame(anatomy, side, sign)
     medial = np.stack([-sign * NRM_AXIS, DIR_AXIS, sign * X_AXIS], axis=1)
     in_mesh = frame(along_f_arm, palm_frame[:, NRM])
-    # An arm that the mesh holds straight does not tell its plane of bending from its carrying
-    # angle: the hinge is tilted by what no flexion makes.
+    # A straight arm does not separate its plane of bending from its carrying angle. So the
+    # hinge is tilted by the part that no flexion produces.
     tilt, a, b = _turn_angles((R @ medial).T @ in_mesh, X, NRM, DIR)
     medial = medial @ about_axis(X, tilt)
     made.bind |= {f"{f_arm}.flexion": sign * a, f"{f_arm}.pronation": sign * b}
@@ -253,7 +256,7 @@ X_AXIS, DIR_AXIS, NRM_AXIS = np.eye(3)
 
 
 def _crease(along_arm: Floats, along_f_arm: Floats) -> Floats:
-    """Direction from the upper arm to which its elbow bends; forward, where it is straight."""
+    """Return the direction from the upper arm to which its elbow bends; forward if straight."""
     ahead: Floats = FORWARD if abs(along_arm @ FORWARD) < 0.9 else UP
     bend = np.cross(along_arm, along_f_arm)
     angle = np.degrees(np.arctan2(np.linalg.norm(bend), along_arm @ along_f_arm))
@@ -264,7 +267,7 @@ def _crease(along_arm: Floats, along_f_arm: Floats) -> Floats:
 
 
 def _ways(ends: Sequence[Floats]) -> list[Floats]:
-    """Directions between places; where two are the same, joints that a body lacks, the next."""
+    """Return directions between places; equal places (missing joints) take the next direction."""
     ways = [b - a for a, b in pairwise(ends)]
     for k in range(len(ways) - 2, -1, -1):
         if np.linalg.norm(ways[k]) < SAME_M:
@@ -282,10 +285,10 @@ def _palm_frame(anatomy: Anatomy, side: str, sign: float) -> Floats:
 
 
 def _finger(made: _Builder, anatomy: Anatomy, finger: str, side: str, sign: float) -> None:
-    """All three frames are the palm's at zero: fingers are straight and parallel there.
+    """Add a finger; at zero, its three frames are the palm's: straight and parallel.
 
-    In the mesh they are neither; the bind values come as near as turns in one plane can, and the
-    mesh follows from there.
+    In the mesh, fingers are neither. The bind values come as near as turns in one plane can, and
+    the mesh follows from there.
     """
     names = [f"{finger}_{side}_{k}" for k in PHALANGES]
     palm = f"palm_{side}"
@@ -308,11 +311,11 @@ def _finger(made: _Builder, anatomy: Anatomy, finger: str, side: str, sign: floa
 
 
 def _thumb(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
-    """At zero the thumb lies beside the index, along the palm, pad to the ulnar side.
+    """Add the thumb; at zero it lies beside the index, along the palm, pad to the ulnar side.
 
-    The plane in which it bends is square to the nail. The first frame is laid into that plane
-    rather than along the metacarpal, which is hidden in flesh, so that the two phalanges that are
-    seen have their frames where they are.
+    It bends in the plane perpendicular to the nail. The first frame lies in that plane, not along
+    the metacarpal, which is hidden in flesh. So the two visible phalanges have their frames at
+    their places.
     """
     names = [f"thumb_{side}_{k}" for k in PHALANGES]
     palm = f"palm_{side}"
@@ -345,10 +348,10 @@ def _thumb(made: _Builder, anatomy: Anatomy, side: str, sign: float) -> None:
 
 
 def _turn_angles(R: Floats, first: int, second: int, third: int) -> tuple[float, float, float]:
-    """Angles of R = rot(first, a) · rot(second, b) · rot(third, c) for three different axes.
+    """Return the angles of R = rot(first, a) · rot(second, b) · rot(third, c) for different axes.
 
-    Of the two solutions the one with |b| ≤ 90° is taken; at 90°, where only a sum of a and c
-    counts, the one with a = 0.
+    Of the two solutions, it takes the one with |b| ≤ 90°. At 90°, where only a sum of a and c is
+    determined, it takes the one with a = 0.
     """
     handed = 1.0 if (second - first) % 3 == 1 else -1.0
     free = np.hypot(R[second, third], R[third, third])

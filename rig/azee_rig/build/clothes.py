@@ -1,8 +1,8 @@
 """Clothes cut from the body's helper suit: a plain top, trousers, shoes.
 
-The suit lies close to the skin everywhere below the head. Each garment is the part of it where
-some function is positive, raised off the body. What lies well under cloth is taken out of the
-skin, so that nothing can poke through, however the arms move.
+The suit lies close to the skin everywhere below the head. Each garment is the part of it where a
+function is positive, raised off the body. Skin well below cloth is removed, so that it cannot show
+through the cloth, however the arms move.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ SLEEVE = 0.93
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
-    """Where garments begin and end, as signed distances in metres: positive is covered.
+    """The borders of garments, as signed distances in metres: positive is covered.
 
     Each function takes places (n, 3) of the body in its own posture.
     """
@@ -37,7 +37,7 @@ class Pattern:
     anatomy: Anatomy
 
     def neckline(self, at: Floats) -> Floats:
-        """How far below a round neckline: low in front, high behind."""
+        """Return the distance below a round neckline: low in front, high behind."""
         neck = self.anatomy.origin("neck")
         notch = self.anatomy.origin("clav_L")[1]
         side, back = neck[1] + 0.006, neck[1] + 0.016
@@ -52,7 +52,7 @@ class Pattern:
         return np.asarray(height - at[:, 1])
 
     def sleeves(self, at: Floats) -> Floats:
-        """How far above the nearer sleeve's end, along the forearm."""
+        """Return the distance above the nearer sleeve's end, along the forearm."""
         left = at[:, 0] > 0.0
         out = np.empty(len(at))
         for side, rows in zip(SIDES, (left, ~left), strict=True):
@@ -65,21 +65,21 @@ class Pattern:
         return out
 
     def hem(self, at: Floats, below_hips_m: float) -> Floats:
-        """How far above a level line that lies so far below the hip joints."""
+        """Return the distance above a level line at some depth below the hip joints."""
         hips = self.anatomy.origin("back_1")[1]
         return np.asarray(at[:, 1] - hips + below_hips_m)
 
     def ankle(self, at: Floats) -> Floats:
-        """How far above the ankles."""
+        """Return the distance above the ankles."""
         return np.asarray(at[:, 1] - 0.105)
 
     def covered(self, at: Floats) -> Floats:
-        """How far from the nearest edge of all clothes together: what shows is negative."""
+        """Return the distance from the nearest edge of all clothes; negative if visible."""
         return np.minimum(self.neckline(at), self.sleeves(at))
 
 
 def clothes(suit: Piece, anatomy: Anatomy) -> Sequence[Piece]:
-    """Top with collar and cuffs, trousers and shoes from the helper suit."""
+    """Return top with collar and cuffs, trousers and shoes from the helper suit."""
     pattern = Pattern(anatomy)
     upper = pattern.hem(suit.vertices, 0.20) > 0.0
     loose = suit.smoothed(4, 0.6 * _chest(suit.vertices, anatomy))
@@ -105,19 +105,19 @@ def clothes(suit: Piece, anatomy: Anatomy) -> Sequence[Piece]:
 
 
 def bare(skin: Piece, anatomy: Anatomy, margin_m: float = 0.02) -> Piece:
-    """Return the skin without what lies further than a margin under cloth."""
+    """Return the skin without the parts further below cloth than a margin."""
     hidden = Pattern(anatomy).covered(skin.vertices) > margin_m
     return skin.only(np.asarray(~hidden[skin.triangles].all(axis=1)))
 
 
 def smooth_step(start: float, end: float, x: Floats) -> Floats:
-    """0 at `start`, 1 at `end`, level at both, for either order of the two."""
+    """Return a smooth step: 0 at `start`, 1 at `end`, level at both, in either order."""
     t = np.clip((x - start) / (end - start), 0.0, 1.0)
     return np.asarray(t * t * (3.0 - 2.0 * t))
 
 
 def _chest(at: Floats, anatomy: Anatomy) -> Floats:
-    """1 on the front of the chest, where cloth spans what the body does not, 0 elsewhere."""
+    """Return 1 on the front of the chest, where cloth spans a hollow of the body, 0 elsewhere."""
     height = anatomy.origin("clav_L")[1]
     out = anatomy.origin("arm_L")[0]
     level = smooth_step(0.30, 0.18, height - at[:, 1]) * smooth_step(0.0, 0.06, height - at[:, 1])

@@ -1,4 +1,4 @@
-"""Reads the table of joint coordinates: limits, resting posture, stiffness."""
+"""Reads the table of joint coordinates: limits, idle posture, stiffness."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Puts the signer together: skin, clothes, hair, brows, eyes, mouth."""
+"""Assembles the signer: skin, clothes, hair, brows, eyes, mouth."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ TEETH = (0.72, 0.69, 0.62)
 TONGUE = (0.36, 0.10, 0.10)
 TEETH_BACK_M = 0.0025
 TEETH_WIDTH = 0.86
-"""How far the teeth step back, and how narrow they become, so that closed lips hide them."""
+"""How far the teeth move back, and how narrow they become, so that closed lips hide them."""
 LASH_LENGTH = 0.45
-"""Lashes are a solid strip here, not single hairs: so much of their length looks as heavy."""
+"""Share of the lashes' length that is kept, since a solid strip looks heavier than hairs."""
 
 
 def dress(body: Body, whole: Piece, anatomy: Anatomy, regions: Mapping[str, Ints]) -> list[Piece]:
-    """All pieces of the signer. whole: all groups of the body with weights and shapes."""
+    """Return all pieces of the signer. whole: all groups of the body with weights and shapes."""
 
     def cut(*groups: str) -> Piece:
         inside = np.zeros(len(body.vertices), dtype=bool)
@@ -72,9 +72,9 @@ def dress(body: Body, whole: Piece, anatomy: Anatomy, regions: Mapping[str, Ints
 
 
 def _lashes(long: Piece, eyes: Floats) -> Piece:
-    """Lashes cut short: each place drawn towards the root nearest to it, whatever moves.
+    """Return shorter lashes: each place, with its data, is moved towards the nearest root.
 
-    eyes: (2, 3). Roots are those half of the places that lie nearest to an eye.
+    eyes: (2, 3). Roots are the half of the places that are nearest to an eye.
     """
     reach = np.linalg.norm(long.vertices[:, None] - eyes, axis=2).min(axis=1)
     roots = np.flatnonzero(reach <= np.median(reach))

@@ -1,4 +1,4 @@
-"""What makes a face: eyes with iris and pupil, brows, lips, nails."""
+"""Parts of a face: eyes with iris and pupil, brows, lips, nails."""
 
 from __future__ import annotations
 
@@ -56,9 +56,9 @@ BROW_STEPS, BROW_ROWS = 24, 5
 
 
 def eyeballs(anatomy: Anatomy, old: Mapping[str, Piece]) -> Piece:
-    """Eyes as spheres with rings that end where pupil and iris do.
+    """Return eyes as spheres whose rings end at the borders of pupil and iris.
 
-    old: the body's own eyeballs: their radius is what the lids are made for.
+    old: the body's own eyeballs; the lids fit their radius.
     """
     made = [_eyeball(anatomy, side, old[side]) for side in SIDES]
     first, second = made
@@ -102,7 +102,7 @@ def _eyeball(anatomy: Anatomy, side: str, old: Piece) -> Piece:
 
 
 def brows(skin: Piece, anatomy: Anatomy, colour: tuple[float, float, float]) -> Piece:
-    """Two strips that lie on the brow ridge and move with the skin under them."""
+    """Return two strips that lie on the brow ridge and move with the skin under them."""
     eyes = [anatomy.origin(f"eye_{s}") for s in SIDES]
     middle, apart = (eyes[0] + eyes[1]) / 2.0, float(np.linalg.norm(eyes[0] - eyes[1]))
     front = skin.vertices[:, 2] > middle[2] - 0.6 * apart
@@ -151,7 +151,7 @@ def brows(skin: Piece, anatomy: Anatomy, colour: tuple[float, float, float]) -> 
 
 
 def _curve(at: Floats, knots: Floats, values: Floats) -> Floats:
-    """Catmull–Rom through values at even knots."""
+    """Return a Catmull–Rom curve through values at even knots."""
     tangent = np.gradient(values, knots)
     i = np.clip(np.searchsorted(knots, at, side="right") - 1, 0, len(knots) - 2)
     width = knots[i + 1] - knots[i]
@@ -165,7 +165,7 @@ def _curve(at: Floats, knots: Floats, values: Floats) -> Floats:
 
 
 def _under(mesh: trimesh.Trimesh, places: Floats) -> tuple[Floats, Ints, Floats]:
-    """Return what lies first behind each place: point, triangle and barycentric shares."""
+    """Return the first surface behind each place: point, triangle and barycentric shares."""
     found, ray, hit = mesh.ray.intersects_location(
         places, np.tile([0.0, 0.0, -1.0], (len(places), 1)), multiple_hits=False
     )

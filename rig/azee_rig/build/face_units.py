@@ -1,11 +1,11 @@
-"""Face units that the body's makers left out and AZee's morphs ask for, and lids on eyes.
+"""Face units that AZee's morphs need and the source body lacks, and lids that avoid the eyes.
 
-They made one unit for the tongue, out, and puffed both cheeks at once. The others are drawn here
-on the same mesh: where the tongue is lifted, lowered or widened, where it presses into a cheek,
-and the muscle that a clenched jaw shows (the masseter, between cheekbone and corner of the jaw).
+The source has one unit for the tongue, out, and one that puffs both cheeks. The others are made
+here on the same mesh: the tongue lifted, lowered, widened or pressed into a cheek, and the muscle
+that a clenched jaw shows (the masseter, between cheekbone and corner of the jaw).
 
-Units that raise a cheek or narrow an eye draw skin straight through the ball of the eye, the more
-so together: a smile that reaches the eyes is three of them. Here it slides over the ball.
+Units that raise a cheek or narrow an eye move skin through the eyeball, in particular if several
+add up: a smile that reaches the eyes has three of them. Here the skin slides over the eyeball.
 """
 
 from __future__ import annotations
@@ -33,14 +33,13 @@ MASSETER = (1.1, -1.12, -0.72)
 CLENCH_M, CLENCH_RADIUS_M = 0.0055, 0.016
 
 SLIDING = ("cheekSquint", "eyeSquint", "mouthSmile", "noseSneer", "mh_mouth-corner-puller")
-"""Beginnings of the names of units that must not draw skin into an eye."""
+"""Prefixes of units that must not move skin into an eye."""
 LID_M, ROUND_EYE_M = 0.004, 0.03
-"""Skin nearer to the ball than this comes no nearer; what is farther from its middle is not looked
-at."""
+"""Skin within this distance of the eyeball comes no nearer; skin farther off is not examined."""
 
 
 def made_units(body: Body, eyes: Floats) -> Mapping[str, tuple[Ints, Floats]]:
-    """Return units as vertex indices and displacements in metres, as those of the body are.
+    """Return units as vertex indices and displacements in metres, like those of the body.
 
     Args: eyes: (2, 3) places of the eyes, left first.
     """
@@ -77,10 +76,10 @@ def made_units(body: Body, eyes: Floats) -> Mapping[str, tuple[Ints, Floats]]:
 
 
 def over_eyes(body: Body, eyes: Floats) -> Mapping[str, tuple[Ints, Floats]]:
-    """Return the body's shapes, some of them bent round the eyes.
+    """Return the body's shapes, some of them bent around the eyes.
 
-    Each place of skin ends no nearer to the middle of the ball than it began. Sums of such moves
-    end outside too, for they add up along the tangent.
+    Each place of skin ends no nearer to the middle of the eyeball than it began. Sums of such moves
+    stay outside too, since they add up along the tangent.
     """
     shapes = dict(body.shapes)
     for name in [unit for unit in shapes if unit.startswith(SLIDING)]:
@@ -106,7 +105,7 @@ def _place(eyes: Floats, steps: tuple[float, float, float], sign: float) -> Floa
 def _swelling(
     body: Body, skin: Ints, near: Floats, radius_m: float, moved: Floats
 ) -> tuple[Ints, Floats]:
-    """Skin that swells round the place of it nearest to `near`, whose middle moves by `moved`."""
+    """Return skin that swells around its place nearest to `near`, whose middle moves by `moved`."""
     at = body.vertices[skin]
     middle = at[np.linalg.norm(at - near, axis=1).argmin()]
     apart = np.linalg.norm(at - middle, axis=1)

@@ -45,7 +45,7 @@ FULL = np.array([(0.0, 15.0), (50.0, 12.0), (90.0, 8.0), (130.0, 9.0), (180.0, 1
 
 
 def hair(skin: Piece, ears: Mask, anatomy: Anatomy) -> Piece:
-    """Hair for a head. skin: the bare body; ears: (n,) its vertices that stay free."""
+    """Return hair for a head. skin: the bare body; ears: (n,) its vertices that stay free."""
     eyes = [anatomy.origin(f"eye_{s}") for s in SIDES]
     middle, apart = (eyes[0] + eyes[1]) / 2.0, float(np.linalg.norm(eyes[0] - eyes[1]))
     centre = middle + np.array([0.0, 0.4, -1.35]) * apart
@@ -87,12 +87,12 @@ def _above_hairline(at: Floats, centre: Floats, middle: Floats, apart: float) ->
 
 
 def _around(at: Floats, centre: Floats) -> Floats:
-    """Degrees around the head's vertical axis, 0 in front, the same on both sides."""
+    """Return degrees around the head's vertical axis, 0 in front, the same on both sides."""
     return np.asarray(np.degrees(np.arctan2(np.abs(at[:, 0] - centre[0]), at[:, 2] - centre[2])))
 
 
 def _rim_distance(piece: Piece, reach_m: float) -> Floats:
-    """Distance of each vertex from the piece's rim along its edges, at most `reach_m`."""
+    """Return the distance of each vertex from the rim along edges, at most `reach_m`."""
     edges = np.concatenate([piece.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
     edges = np.sort(edges, axis=1)
     unique, times = np.unique(edges, axis=0, return_counts=True)
@@ -106,7 +106,7 @@ def _rim_distance(piece: Piece, reach_m: float) -> Floats:
 
 
 def _strands(at: Floats, centre: Floats) -> Floats:
-    """−1 … 1, waving across the way that hair falls from a crown at the back of the head."""
+    """Return a wave from −1 to 1 across the hair, which falls from a crown at the back."""
     crown = centre + np.array([0.012, 0.09, -0.03])
     turn = np.arctan2(at[:, 0] - crown[0], at[:, 2] - crown[2])
     fall = np.linalg.norm(at - crown, axis=1)

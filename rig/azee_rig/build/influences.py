@@ -1,4 +1,4 @@
-"""Skin weights on four joints a vertex, which is all that many viewers read.
+"""Skin weights on four joints per vertex, which is all that many viewers read.
 
 Dropping the lighter of eight influences moves skin by more than a centimetre where many joints
 meet, at neck and shoulder. Fitting the four that remain keeps it within a few millimetres.
@@ -23,13 +23,13 @@ Ints = NDArray[np.int64]
 
 KEPT = 4
 CANDIDATES = 6
-"""Of so many heaviest influences, the best four are kept."""
+"""Of this many heaviest influences, the best four are kept."""
 SEED, POSTURES, REACH = 2018, 16, 0.6
-"""Postures to fit on: random ones, that far from idle towards any posture inside the limits."""
+"""Number of random postures for fitting, and how far they go from idle towards any posture."""
 
 
 def sample_postures(coordinates: Coordinates) -> Floats:
-    """Return postures (P, V) that a fit is judged by: bind, idle, random ones and their mirrors."""
+    """Return postures (P, V) for judging a fit: bind, idle, random ones and their mirrors."""
     random = np.random.default_rng(SEED)
     anywhere = random.uniform(
         coordinates.lower, coordinates.upper, (POSTURES, len(coordinates.names))
@@ -39,10 +39,10 @@ def sample_postures(coordinates: Coordinates) -> Floats:
 
 
 def with_four_influences(mesh: BodyMesh, skeleton: Skeleton, poses: Pose) -> BodyMesh:
-    """Return the mesh with at most four influences a vertex, fitted over some postures.
+    """Return the mesh with at most four influences per vertex, fitted over some postures.
 
-    For a vertex with more, every four of its heaviest are tried, with the weights that bring it
-    nearest to where all its influences do, by least squares; the best of these stay.
+    For a vertex with more, every four of its heaviest are tried. Least squares give the weights
+    that bring it nearest to its place with all influences; the best four stay.
 
     Args: poses: (P, J) postures.
     """
@@ -63,9 +63,9 @@ def with_four_influences(mesh: BodyMesh, skeleton: Skeleton, poses: Pose) -> Bod
 
 
 def _best(places: Floats, weights: Floats) -> Floats:
-    """Return weights (n,), at most four of them positive, that stand best for all.
+    """Return weights (n,), at most four of them positive, that best replace all.
 
-    Args: places: (P, n, 3) where each joint alone would carry the vertex. weights: (n,), heaviest
+    Args: places: (P, n, 3) of the vertex if each joint alone carried it. weights: (n,), heaviest
         first.
     """
     wanted = np.einsum("j,pja->pa", weights, places).ravel()
@@ -79,7 +79,7 @@ def _best(places: Floats, weights: Floats) -> Floats:
 
 
 def _fitted(columns: Floats, wanted: Floats, chosen: Ints) -> Floats:
-    """Return the weights of least squares on some joints: they sum to 1, and none is negative.
+    """Return least-squares weights on some joints: they sum to 1, and none is negative.
 
     Joints that would get a negative weight are left out, and the others fitted again.
     """

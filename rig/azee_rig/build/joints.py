@@ -1,9 +1,9 @@
-"""The skeleton that a rig exports: joints kept, the others merged into them, helpers added.
+"""The skeleton that a rig exports: joints that stay, others merged into them, helpers added.
 
-Linear blending loses flesh where two joints that pull at the same skin turn far apart: half-way
-between turns that differ by θ, skin comes nearer to the axis by cos(θ/2). So no two neighbours
-may differ by much: the turn about a limb's axis is spread over joints along it, and a bend over
-helpers that take a share of it each. Skin lies between two of them, and on no others.
+Linear blending loses volume where two joints that pull at the same skin turn far apart: half-way
+between turns that differ by θ, skin comes nearer to the axis by cos(θ/2). So two neighbours must
+not differ by much. The turn about a limb's axis is spread over joints along it, and a bend over
+helpers that take a share each. Skin lies between two of them, and on no others.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ FOLLOWING = {"arm": "f_arm", "f_arm": "palm"}
 class BuiltJoints:
     """A skeleton, how it follows the chain, and the body's weights on its joints (N, J).
 
-    flesh: all joints whose skin is that of an AZee bone; a helper's is that of the bone that bends.
+    flesh: all joints whose skin is that of an AZee bone; a helper's skin is that of the bone that
+        bends.
     """
 
     skeleton: Skeleton
@@ -57,7 +58,7 @@ def build_joints(
     """Merge, place and drive the joints of a body.
 
     Args: bones: joints per AZee bone. kept: further joints that never move. twist: per limb its
-    joints; those that the body has not got are added. bends: those of the hand before the wrist.
+        joints; missing ones are added. bends: those of the hand before the wrist.
     """
     own = {joint for chain in bones.values() for joint in chain} | set(kept)
     names = [j for j in body.joints if j in own]
@@ -92,7 +93,7 @@ def build_joints(
 
 
 def _nearest(body: Body, joint: str, own: set[str]) -> str | None:
-    """Return the next joint above that is kept."""
+    """Return the next joint above that stays."""
     j = int(body.parents[body.joints.index(joint)])
     while j >= 0 and body.joints[j] not in own:
         j = int(body.parents[j])
@@ -100,7 +101,7 @@ def _nearest(body: Body, joint: str, own: set[str]) -> str | None:
 
 
 def _limb(anatomy: Anatomy, bone: str) -> tuple[Floats, Floats]:
-    """Where a limb starts, and the way to its end."""
+    """Return the start of a limb, and the vector to its end."""
     base, side = bone.rsplit("_", 1)
     start = anatomy.origin(bone)
     return start, anatomy.origin(f"{FOLLOWING[base]}_{side}") - start
@@ -152,7 +153,7 @@ def _weights(
 
 
 def _free_of_eye(weights: Floats, eye: int, parent: int) -> None:
-    """Give skin around an eye, which the body's makers let it drag along, to the head alone."""
+    """Assign skin around an eye to the head alone; in the source, the eye drags it along."""
     dragged = weights[:, eye] < 0.5
     weights[dragged, parent] += weights[dragged, eye]
     weights[dragged, eye] = 0.0

@@ -20,15 +20,15 @@ SIGNING_SPACE = {
 }
 """In upper-arm lengths from the middle of the shoulder line: left, up, forward."""
 HALF_REACH = 0.6
-"""Capsules of the trunk count that are no further above or below Mssp, in upper-arm lengths."""
+"""Trunk capsules at most this far above or below Mssp count, in upper-arm lengths."""
 SIGNERS_FRONT = 0.6
-"""In upper-arm lengths, about what `trunk_front` says of slim bodies: signer 0.54, child 0.59."""
+"""In upper-arm lengths, about the `trunk_front` of slim bodies: signer 0.54, child 0.59."""
 
 
 def landmarks_of(
     built: BuiltChain, coordinates: Coordinates, reference_arm_m: float | None = None
 ) -> Landmarks:
-    """Measure a body at idle. reference_arm_m: the reference signer's; its own where None."""
+    """Measure a body at idle. reference_arm_m: the reference signer's arm; its own if None."""
     at = built.chain.frames(coordinates.idle).positions
     shoulder, elbow, wrist = (
         np.array([at[built.bones[f"{b}_{s}"].origin_node] for s in SIDES])
@@ -44,8 +44,8 @@ def landmarks_of(
 def signing_space(marks: Landmarks, front_m: float | None = None) -> dict[str, Floats]:
     """Return the named places in the world, metres.
 
-    Args: front_m: how far the trunk reaches before the shoulder line at the height of Mssp, see
-        `trunk_front`. What a belly reaches further than the signer's moves the places forward.
+    Args: front_m: distance of the trunk's front from the shoulder line at the height of Mssp, see
+        `trunk_front`. If it is larger than the signer's, the places move forward.
     """
     further = 0.0
     if front_m is not None:
@@ -59,7 +59,7 @@ def signing_space(marks: Landmarks, front_m: float | None = None) -> dict[str, F
 
 
 def trunk_front(built: BuiltChain, coordinates: Coordinates, capsules: Capsules) -> float:
-    """How far trunk capsules reach before the shoulder line where hands sign, metres, at idle."""
+    """Return how far the trunk extends before the shoulder line at hand height, metres, at idle."""
     at = built.chain.frames(coordinates.idle)
     marks = landmarks_of(built, coordinates)
     height = marks.shoulder_middle[1] + marks.upper_arm_m * SIGNING_SPACE["Mssp"][1]

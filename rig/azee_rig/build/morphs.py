@@ -1,4 +1,4 @@
-"""Reads the tables of AZee's morphs: skeletal presets and what a face can do."""
+"""Reads the tables of AZee's morphs: skeletal presets and facial morphs."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from pathlib import Path
 from azee_rig.build.anatomy import SIDES
 
 RENAMED = {"palm_l_closed": "palm_closed_L", "palm_r_closed": "palm_closed_R"}
-"""Morphs whose published name has its side elsewhere."""
+"""Morphs whose published name has the side inside it."""
 
 
 def read_skeletal_morphs(path: Path, coordinates: Sequence[str]) -> dict[str, dict[str, float]]:
-    """Radians per coordinate at weight 1, for both sides; a name without its side moves both.
+    """Return radians per coordinate at weight 1; a name without its side moves both sides.
 
     The table is in degrees, counted from the zero pose, with `{S}` for the side.
     Raises: ValueError: a row names no coordinate of the rig.
@@ -38,7 +38,7 @@ def read_skeletal_morphs(path: Path, coordinates: Sequence[str]) -> dict[str, di
 def read_face_morphs(
     path: Path, units: Sequence[str]
 ) -> tuple[dict[str, dict[str, float]], dict[str, str]]:
-    """Weights per face unit at weight 1, and the morphs that cannot be shown, with the reason.
+    """Return weights per face unit at weight 1, and reasons for morphs that cannot be shown.
 
     Raises: ValueError: a row names no unit of the face.
     """
@@ -51,7 +51,7 @@ def read_face_morphs(
 
 
 def read_lids(path: Path, units: Sequence[str]) -> dict[str, tuple[str, float]]:
-    """Read what lids do when an eye turns: per face unit a coordinate and weight per radian.
+    """Read how lids follow the turn of an eye: per face unit a coordinate and weight per radian.
 
     Raises: ValueError: a row names no unit of the face.
     """

@@ -1,4 +1,4 @@
-"""Pieces of a dressed body, and how they become one mesh."""
+"""Pieces of a dressed body, and their union as one mesh."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ class Piece:
     def clipped(self, keep: Floats) -> Piece:
         """Return the part of the piece where a function of its vertices, (n,), is positive.
 
-        Triangles that the zero line crosses are cut along it, so that an edge runs smoothly
-        whatever the mesh is like; what the new vertices carry is interpolated.
+        Triangles that the zero line crosses are cut along it, so that an edge is smooth on any
+        mesh. The values of new vertices are interpolated.
         """
         inside = keep > 0.0
         corner = inside[self.triangles]
@@ -73,7 +73,7 @@ class Piece:
 
         triangles = [self.triangles[count == 3]]
         for t in np.flatnonzero((count == 1) | (count == 2)):
-            # Turn the triangle until its odd corner is first.
+            # Rotate the triangle until its odd corner is first.
             first = int(np.flatnonzero(corner[t] == (count[t] == 1))[0])
             a, b, c = (int(v) for v in np.roll(self.triangles[t], -first))
             ab, ac = crossing(a, b), crossing(a, c)
@@ -111,7 +111,7 @@ class Piece:
         return replace(finer, triangles=np.concatenate([np.stack(t, axis=1) for t in new]))
 
     def smoothed(self, steps: int, share: Floats | float = 0.5) -> Piece:
-        """Return the piece with vertices drawn towards their neighbours' mean; its rim stays."""
+        """Return the piece with vertices moved towards their neighbours' mean; its rim stays."""
         pull = np.where(self.on_rim, 0.0, share)[:, None]
         vertices = self.vertices
         for _ in range(steps):
@@ -119,7 +119,7 @@ class Piece:
         return replace(self, vertices=vertices)
 
     def relaxed(self, steps: int, share: float = 0.5) -> Piece:
-        """Return the piece with skin weights drawn towards their neighbours' mean."""
+        """Return the piece with skin weights moved towards their neighbours' mean."""
         weights = self.weights
         for _ in range(steps):
             weights = weights + share * (self._around(weights) - weights)
@@ -127,7 +127,7 @@ class Piece:
 
     @cached_property
     def on_rim(self) -> NDArray[np.bool_]:
-        """Vertices on an edge that has one triangle only, (n,)."""
+        """Return which vertices are on an edge with only one triangle, (n,)."""
         unique, times = np.unique(np.sort(self._edges, axis=1), axis=0, return_counts=True)
         found = np.zeros(len(self.vertices), dtype=bool)
         found[unique[times == 1]] = True
@@ -138,7 +138,7 @@ class Piece:
         return np.concatenate([self.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
 
     def _around(self, values: Floats) -> Floats:
-        """Mean of each vertex's neighbours, (n, k)."""
+        """Return the mean of each vertex's neighbours, (n, k)."""
         both = np.concatenate([self._edges, self._edges[:, ::-1]])
         count = np.maximum(np.bincount(both[:, 0], minlength=len(values)), 1)
         columns = [
@@ -167,14 +167,14 @@ class Piece:
         )
 
     def raised(self, height: Floats | float) -> Piece:
-        """Return the piece moved out along its normals: one height in metres, or one each."""
+        """Return the piece moved along its normals, by one height in metres or one each."""
         normals = vertex_normals(self.vertices, self.triangles)
         return replace(self, vertices=self.vertices + np.reshape(height, (-1, 1)) * normals)
 
     def blend(self, rows: Ints, shares: Floats, vertices: Floats) -> Piece:
-        """Loose vertices that ride this piece, without triangles.
+        """Return loose vertices that move with this piece, without triangles.
 
-        Each takes weights, deltas and colour from some of the piece's: rows and shares are
+        Each takes weights, deltas and colour from some vertices of the piece: rows and shares are
         (m, k), shares sum to 1.
         """
         return replace(
@@ -188,13 +188,16 @@ class Piece:
 
 
 def triangulated(faces: Ints) -> Ints:
-    """Triangles of faces (F, 4) whose last column is −1 for triangles."""
+    """Return triangles of faces (F, 4) whose last column is −1 for triangles."""
     quads = faces[faces[:, 3] >= 0]
     return np.concatenate([faces[:, :3], quads[:, [0, 2, 3]]])
 
 
 def whole_body(body: Body, weights: Floats, units: Sequence[str]) -> Piece:
-    """All groups of a body as one piece, to cut others from. weights: (N, J) of the new joints."""
+    """Return all groups of a body as one piece, from which others are cut.
+
+    weights: (N, J) of the new joints.
+    """
     deltas = np.zeros((len(units), len(body.vertices), 3))
     for u, unit in enumerate(units):
         rows, moved = body.shapes[unit]
@@ -210,7 +213,7 @@ def whole_body(body: Body, weights: Floats, units: Sequence[str]) -> Piece:
 
 
 def assemble(pieces: Sequence[Piece], units: Sequence[str]) -> BodyMesh:
-    """One mesh of all pieces, their influences capped at eight a vertex."""
+    """Return one mesh of all pieces, with at most eight influences per vertex."""
     counts = np.cumsum([0, *(len(p.vertices) for p in pieces)])
     stops = np.cumsum([0, *(len(p.triangles) for p in pieces)])
     joints, weights = _capped(np.concatenate([p.weights for p in pieces]))

@@ -1,4 +1,4 @@
-"""The same body skinned plainly, to compare with: what helpers, spread twist and rhythm are for."""
+"""The same body with plain skinning, for comparison: no helpers, spread twist or rhythm."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from azee_rig.rig import Rig
 def plain(rig: Rig) -> tuple[Rig, BodyMesh]:
     """Return a rig of rigid bones, and its mesh: every joint turns as its bone does.
 
-    Skin on a helper goes back to the joints on both sides of the bend, by the helper's share of
-    it, and a limb's skin to the limb's first joint. A raised arm no longer lifts its shoulder.
+    Skin on a helper returns to the joints on both sides of the bend, by the helper's share of it,
+    and a limb's skin to the limb's first joint. A raised arm does not lift its shoulder.
     """
     drive, chain = rig.drive, rig.chain
     back = np.eye(len(drive.node))

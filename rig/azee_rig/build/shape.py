@@ -1,6 +1,6 @@
-"""How well posed skin keeps its shape: sections of a limb, and the volume round a joint.
+"""Measures how well posed skin keeps its shape: sections of a limb, and volume around a joint.
 
-Both are measured on a posed mesh, so they judge any way of skinning alike.
+Both are measured on a posed mesh, so they judge all ways of skinning alike.
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 REACH_M = 0.09
-"""What belongs to a limb's section lies nearer than this to its axis."""
+"""Only points nearer to a limb's axis than this belong to its section."""
 
 
 def part_triangles(rig: Rig, part: str) -> Ints:
-    """Triangles (f, 3) of one part of a body's mesh."""
+    """Return triangles (f, 3) of one part of a body's mesh."""
     (run,) = (p for p in rig.mesh.parts if p.name == part)
     return rig.mesh.triangles[run.start : run.stop]
 
 
 def section_area(vertices: Floats, triangles: Ints, origin: Floats, normal: Floats) -> float:
-    """Area in m² of the section of a closed tube, the sum of ½ (a × b) · n over its edges.
+    """Return the area in m² of a section of a closed tube: the sum of ½ (a × b) · n over edges.
 
     Args: origin: (3,) place on the tube's axis; normal: (3,) unit normal of the plane.
-    Returns: nan where the section is not closed.
+    Returns: nan if the section is not closed.
     """
     near = (np.linalg.norm(vertices - origin, axis=1) < REACH_M)[triangles].all(axis=1)
     corners = triangles[near]
@@ -51,7 +51,7 @@ def section_area(vertices: Floats, triangles: Ints, origin: Floats, normal: Floa
 def limb_sections(
     rig: Rig, vertices: Floats, q: Floats, part: str, side: str, at: Floats
 ) -> Floats:
-    """Sections (n,) of a forearm square to its axis, m², at metres (n,) past the wrist."""
+    """Return cross-sections (n,) of a forearm, m², at metres (n,) past the wrist."""
     frames = rig.chain.frames(q)
     wrist = frames.positions[rig.bones[f"palm_{side}"].origin_node]
     axis = frames.rotations[rig.bones[f"f_arm_{side}"].node][:, 1]
@@ -60,9 +60,9 @@ def limb_sections(
 
 
 def elbow_sleeve(rig: Rig, part: str, side: str, reach_m: float) -> Ints:
-    """Triangles of a sleeve between planes square to upper arm and forearm at bind, (f, 3).
+    """Return triangles of a sleeve between planes perpendicular to both limbs at bind, (f, 3).
 
-    reach_m: how far each plane lies from the elbow.
+    reach_m: distance of each plane from the elbow.
     """
     frames = rig.chain.frames(rig.coordinates.bind)
     upper, lower = (frames.rotations[rig.bones[f"{b}_{side}"].node][:, 1] for b in ("arm", "f_arm"))
@@ -74,9 +74,9 @@ def elbow_sleeve(rig: Rig, part: str, side: str, reach_m: float) -> Ints:
 
 
 def enclosed_volume(vertices: Floats, triangles: Ints) -> float:
-    """Volume in m³ that a tube encloses, each open rim closed by a fan round its middle.
+    """Return the volume in m³ inside a tube, each open rim closed by a fan around its middle.
 
-    By the divergence theorem, Σ a · (b × c) / 6: what is covered twice counts twice.
+    By the divergence theorem, Σ a · (b × c) / 6: volume that is covered twice counts twice.
     """
     edges = np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
     _, which, times = np.unique(

@@ -1,1 +1,1 @@
-"""Takes in bodies that others made: skinned glTF and VRM, under whatever joint names."""
+"""Imports bodies that others made: skinned glTF and VRM, with any joint names."""

@@ -1,8 +1,8 @@
-"""The anatomy of a taken-in body: every AZee bone gets its places, also those it has no joints for.
+"""The anatomy of an imported body: places for every AZee bone, also for those without joints.
 
-A bone without joints begins where the next one does, so that what it would turn turns there: a
-body with one joint for its whole neck nods with it. Digits that are not there at all get places
-beside the palm, for the chain's sake, and no one is told of them.
+A bone without joints begins where the next one does, so that its turn happens there: a body with
+one neck joint nods with that joint. Missing digits get places beside the palm, for the chain only;
+they are not reported.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ Places = dict[str, list[Floats]]
 
 FORWARD = np.array([0.0, 0.0, 1.0])
 BENT_DEG, NEAR_DEG = 12.0, 35.0
-"""A thumb bent by more tells its plane, if that is as near to the usual one."""
+"""A thumb bent by more gives its plane by its joints, if that is near the usual plane."""
 FARTHEST = 95.0
-"""Percentile of the skin of a last phalanx, by distance from its joint, that is its tip."""
+"""The tip of a last phalanx is this percentile of its skin, by distance from its joint."""
 LAST_SHARE = 0.8
 """Length of a last phalanx without skin or tip, as a share of the one before."""
 
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """The hands of the signer, from which those of other bodies take what their joints leave open.
+    """The signer's hands, which give what the joints of other bodies leave open.
 
-    knuckles: places of the digits' joints in the palm's frame, in forearm lengths, by bone. thumb:
-    direction of the last phalanx and the nail's outward normal in the palm's frame, by side.
+    knuckles: places of the digits' joints in the palm's frame, in forearm lengths, by bone.
+    thumb: direction of the last phalanx and the nail's outward normal in the palm's frame, by side.
     """
 
     knuckles: Mapping[str, Floats]
@@ -45,7 +45,7 @@ class Model:
 
     @staticmethod
     def of(signer: Rig) -> Model:
-        """Read it off the signer's mesh."""
+        """Measure the hands of the signer's mesh."""
         at = signer.chain.frames(signer.coordinates.bind)
         knuckles, thumb = {}, {}
         for side in SIDES:
@@ -69,9 +69,9 @@ def body_anatomy(
     vertices: Floats,
     model: Model,
 ) -> Anatomy:
-    """Return the anatomy of a body that stands.
+    """Return the anatomy of an upright body.
 
-    Args: tips: ends of digits, where joints mark them. eyes: middle of each eye by side.
+    Args: tips: ends of digits, if joints mark them. eyes: middle of each eye by side.
     """
     joints: Places = {
         bone: [reduced.place(j) for j in chain] for bone, chain in bones.bones.items()
@@ -123,7 +123,7 @@ def _straighten(joints: Places, side: str) -> None:
 
 
 def _palm(reduced: Reduced, bones: BoneMap, joints: Places, vertices: Floats, side: str) -> Floats:
-    """Frame of the palm, columns x (ulnar side), dir, nrm (palm): from knuckles, else from skin."""
+    """Return the frame of the palm, columns x (ulnar side), dir, nrm, from knuckles or skin."""
     wrist, elbow = joints[f"palm_{side}"][0], joints[f"f_arm_{side}"][0]
     sign = 1.0 if side == "L" else -1.0
     there = [f"{d}_{side}_1" for d in DIGITS[1:] if f"{d}_{side}_1" in bones.bones]
@@ -139,7 +139,7 @@ def _palm(reduced: Reduced, bones: BoneMap, joints: Places, vertices: Floats, si
         normal = axes[2]
     else:
         normal = np.array([-sign, 0.0, 0.0])
-    # A hanging hand turns its palm inward, one held out turns it down.
+    # The palm of a hanging hand faces inward, that of an arm held out faces down.
     d = unit(along)
     facing = np.array([-sign * abs(d[1]), -abs(d[0]) - 0.1, 0.0])
     return frame(along, normal if normal @ facing >= 0.0 else -normal)
@@ -153,7 +153,7 @@ def _invent(joints: Places, names: list[str], palm: Floats, side: str, model: Mo
 
 
 def _tip(reduced: Reduced, bones: BoneMap, joints: Places, vertices: Floats, digit: str) -> Floats:
-    """End of a digit: the middle of the skin that is farthest from its last joint."""
+    """Return the end of a digit: the middle of the skin that is farthest from its last joint."""
     chain = [joints[f"{digit}_{k}"][0] for k in PHALANGES]
     last = chain[-1]
     joint = bones.bones.get(f"{digit}_3")
@@ -170,7 +170,7 @@ def _tip(reduced: Reduced, bones: BoneMap, joints: Places, vertices: Floats, dig
 def _nail(
     joints: Places, ends: Mapping[str, Floats], palm: Floats, side: str, model: Model
 ) -> Floats:
-    """Outward normal of the thumbnail: the signer's, turned along, or as the joints bend."""
+    """Return the outward normal of the thumbnail: the signer's, turned along, or by the joints."""
     chain = [*(joints[f"thumb_{side}_{k}"][0] for k in PHALANGES), ends[f"thumb_{side}"]]
     last = unit(chain[3] - chain[2])
     usual, nail = model.thumb[side]
@@ -187,7 +187,7 @@ def _nail(
 
 
 def _turned(v: Floats, start: Floats, end: Floats) -> Floats:
-    """V turned by the least turn that takes unit vector `start` to `end`."""
+    """Return v, rotated by the smallest rotation that takes unit vector `start` to `end`."""
     axis, c = np.cross(start, end), float(start @ end)
     if c < -0.999999:
         return v

@@ -1,4 +1,4 @@
-"""Finds the eyes of a body: by its joints, else as two balls in its head, else where eyes sit."""
+"""Finds the eyes of a body: by joints, else as two balls in the head, else at the usual place."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 RADIUS_M = (0.006, 0.030)
-"""Of eyes on a body as tall as `BODY_M`; drawn figures have large ones."""
+"""Radii of eyes on a body as tall as `BODY_M`; drawn figures have large ones."""
 BODY_M = 1.7
 ROUND = 0.15
 """How much the distances of an eyeball's skin from its middle may vary."""
 PAIRED = 0.25
-"""How far the middle of one may be off the other's mirror image, in radii."""
+"""How far the middle of one eyeball may be from the other's mirror image, in radii."""
 WELD_M = 1e-5
 USUAL = (0.031, 0.075, 0.075)
 """Left, up and forward from the head's joint to an eye, as the signer has it, in metres for a head
@@ -56,7 +56,7 @@ def find_balls(
             if left.middle[0] <= 0.2 * left.radius or right.middle[0] >= 0.0:
                 continue
             off = np.linalg.norm(left.middle * (-1, 1, 1) - right.middle) / left.radius
-            # Of nested balls, such as a cornea, the largest holds the eye.
+            # Of nested balls, such as a cornea, the largest contains the eye.
             if off < PAIRED and (best is None or left.radius > best[0]):
                 best = left.radius, left, right
     if best is None:
@@ -65,7 +65,7 @@ def find_balls(
 
 
 def usual_place(reduced: Reduced, head: str, vertices: Floats, side: str) -> Floats:
-    """Return where an eye sits in most heads."""
+    """Return the place of an eye in most heads."""
     origin = reduced.place(head)
     skull = vertices[reduced.held([head])]
     size = (float(skull[:, 1].max()) - origin[1]) / HEAD_M if len(skull) else 1.0
@@ -82,7 +82,7 @@ def _with_inner(outer: Ball, balls: list[Ball]) -> Ball:
 
 
 def _pieces(vertices: Floats, triangles: Ints) -> Iterator[Ints]:
-    """Yield the vertices of each connected piece; what lies at one place is one vertex."""
+    """Yield the vertices of each connected piece; vertices at the same place count as one."""
     if not len(triangles):
         return
     _, welded = np.unique(np.round(vertices / WELD_M), axis=0, return_inverse=True)
@@ -117,7 +117,7 @@ def _ball(vertices: Floats, piece: Ints, scale: float) -> Ball | None:
     extent = np.ptp(points, axis=0)
     if not RADIUS_M[0] * scale <= radius <= RADIUS_M[1] * scale:
         return None
-    # At least a cap that one would call half a ball.
+    # The piece must be about half a ball or more.
     if distance.std() > ROUND * radius or np.sort(extent)[1] < 1.2 * radius:
         return None
     taken = np.zeros(len(vertices), dtype=bool)

@@ -1,4 +1,4 @@
-"""What keeps a body from being taken in."""
+"""The error of a body that cannot be imported."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from azee_rig.load import RigError
 
 
 class BodyError(RigError):
-    """A body that cannot be taken in. Message, notes and help are for the user.
+    """A body cannot be imported. Message, notes and help are for the user.
 
-    code: `body-unreadable` (no glTF, or a damaged one), `body-unsupported` (sound, but needs what
-    is not read here), `body-incomplete` (lacks what no signing body can lack) or `body-map` (the
-    user's own bones-map does not fit).
+    code: `body-unreadable` (not glTF, or damaged), `body-unsupported` (not damaged, but it needs
+        something unsupported), `body-incomplete` (lacks a mandatory part) or `body-map` (the user's
+        own bones-map does not fit).
     """
 
     def __init__(self, code: str, message: str, *notes: str, help_: str | None = None) -> None:
@@ -19,5 +19,5 @@ class BodyError(RigError):
 
 
 def unreadable(message: str, *notes: str) -> BodyError:
-    """Fault of a file that is no glTF or breaks its rules."""
+    """Return the fault of a file that is not glTF or breaks its rules."""
     return BodyError("body-unreadable", message, *notes)

@@ -1,4 +1,4 @@
-"""The skeleton of a taken-in body, and how its joints follow the chain."""
+"""The skeleton of an imported body, and how its joints follow the chain."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ def build_limbs(
 ) -> Limbs:
     """Drive a body's own joints.
 
-    Each joint of a limb takes the share of its turn that tells where its skin lies on the way from
-    the limb's start (none) to its end (all): so a forearm of one joint turns by half, and one with
-    twist joints turns evenly.
+    The place of a joint's skin along the limb, from its start (none) to its end (all), gives the
+    share of the limb's twist that the joint takes. So a forearm of one joint turns by half, and one
+    with twist joints turns evenly.
 
-    Args: eyes: joint of each eye, by side, where there is one.
+    Args: eyes: joint of each eye, by side, if there is one.
     """
     chains = dict(bones.bones) | {f"eye_{side}": (joint,) for side, joint in eyes.items()}
     places = dict(zip(reduced.names, reduced.places, strict=True))
@@ -100,7 +100,7 @@ def _on_axis(anatomy: Anatomy, bone: str, place: Floats) -> Floats:
 
 
 def _along(reduced: Reduced, anatomy: Anatomy, bone: str, joint: str, vertices: Floats) -> float:
-    """Middle of a joint's skin along its limb, 0 … 1."""
+    """Return the middle of a joint's skin along its limb, 0 … 1."""
     start, way = _limb(anatomy, bone)
     weights = reduced.weights[:, reduced.names.index(joint)]
     at = np.clip((vertices - start) @ way / (way @ way), 0.0, 1.0)

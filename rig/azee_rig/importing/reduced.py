@@ -1,4 +1,4 @@
-"""The joints of a body that its rig keeps, and the skin on them; all others are merged upwards."""
+"""The joints of a body that its rig keeps, with their skin; all others are merged upwards."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ class Reduced:
     weights: Floats
 
     def place(self, joint: str) -> Floats:
-        """Where a joint is, (3,)."""
+        """Return the place of a joint, (3,)."""
         return np.asarray(self.places[self.names.index(joint)])
 
     def held(self, joints: Sequence[str], at_least: float = 0.5) -> NDArray[np.bool_]:
-        """Vertices that some joints together carry by at least a share, (N,)."""
+        """Return which vertices some joints together carry by at least a share, (N,)."""
         columns = [self.names.index(j) for j in joints]
         return np.asarray(self.weights[:, columns].sum(axis=1) >= at_least)
 
     def with_joint(
         self, name: str, parent: str, place: Floats, taken: NDArray[np.bool_]
     ) -> Reduced:
-        """Return it with one more joint, which carries some vertices (N,) alone."""
+        """Return it with one more joint, which alone carries some vertices (N,)."""
         weights = np.pad(self.weights, ((0, 0), (0, 1)))
         weights[taken] = 0.0
         weights[taken, -1] = 1.0
@@ -47,7 +47,7 @@ class Reduced:
 def reduce_joints(
     tree: Tree, bones: BoneMap, places: Floats, influences: Ints, weights: Floats
 ) -> Reduced:
-    """Keep the joints of the bones-map and the legs'; their skin takes in that of all others.
+    """Keep the joints of the bones-map and of the legs; their skin includes that of all others.
 
     Args: places: (J, 3). influences, weights: (N, k) of the vertices.
     """

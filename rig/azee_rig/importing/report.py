@@ -1,4 +1,4 @@
-"""What to tell a user of a body that was taken in: what was found, what is missing, what works."""
+"""The report of an import: what was found, what is missing, what works."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class ImportReport:
     lost_sites: tuple[str, ...]
 
     def missing(self, folder: Path) -> Iterator[str]:
-        """Yield what is missing, and what still works, a line each. folder: of the rig."""
+        """Yield the missing parts and what still works, a line each. folder: of the rig."""
         for side in SIDES:
             gone = [d for d in DIGITS if all(f"{d}_{side}_{k}" in self.without for k in (1, 2, 3))]
             if len(gone) == len(DIGITS):
@@ -77,7 +77,7 @@ class ImportReport:
         return any(f"{d}_{s}_3" in self.without for d in DIGITS for s in SIDES)
 
     def as_json(self) -> dict[str, Any]:
-        """Return it for machines."""
+        """Return it as JSON data."""
         return {
             "name": self.name,
             "map": self.family,

@@ -1,8 +1,8 @@
-"""Reads a skeleton by its shape, where names say nothing: symmetry, hands with fingers, a head.
+"""Reads a skeleton by its shape, if names give no information: symmetry, hands, a head.
 
-The middle plane is the one that most joints have a mirror image in. Hands are the pair of mirrored
-joints from which most chains of fingers go out, else the ends of the pair of chains that reach
-furthest to the sides above the legs. The head is the highest joint of the middle that carries skin.
+The middle plane is the one in which most joints have a mirror image. Hands are the pair of mirrored
+joints from which most chains of fingers start, or else the ends of the pair of chains that extend
+furthest to the sides above the legs. The head is the highest middle joint that carries skin.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ FINGER = 2
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """What the shape of a skeleton says: head, hands, the chains of fingers of each hand, legs."""
+    """The parts that the shape of a skeleton shows: head, hands, fingers of each hand, legs."""
 
     head: int
     hands: dict[str, int]
@@ -35,11 +35,11 @@ class Shape:
     legs: tuple[list[int], ...]
 
     def landmarks(self) -> dict[str, int]:
-        """Head and hands, as names would have told them."""
+        """Return head and hands in the form that names would give."""
         return {"head": self.head} | {f"palm_{s}": hand for s, hand in self.hands.items()}
 
     def readings(self, names: Sequence[Reading]) -> list[Reading]:
-        """Return what is seen, as if names had said it; eyes may well have names."""
+        """Return what is found, in the form that names would give; eyes may have names."""
         seen = [r if r.kind == "eye" else replace(Reading(), end=r.end) for r in names]
         for leg in self.legs:
             for joint, kind in zip(leg, LEGS, strict=False):
@@ -52,7 +52,7 @@ class Shape:
 
 
 def read_shape(tree: Tree, carried: Floats | None) -> Shape | None:
-    """See a figure with a head and two hands in a skeleton; None where there is none.
+    """Find a figure with a head and two hands in a skeleton; None if there is none.
 
     Args: carried: skin on each joint, (J,), if there is any.
     """
@@ -90,7 +90,7 @@ def read_shape(tree: Tree, carried: Floats | None) -> Shape | None:
 
 
 def _middle_plane(tree: Tree, near: float) -> tuple[int | None, list[int]]:
-    """Axis across the figure, and each joint's mirror image, −1 where it has none."""
+    """Return the axis across the figure, and each joint's mirror image, −1 for none."""
     best: tuple[int, int | None, list[int]] = (0, None, [])
     places = tree.places
     for axis in range(3):
@@ -121,7 +121,7 @@ def _hands(tree: Tree, mirror: Sequence[int], away: Floats, up: int) -> tuple[in
     ]
     if not ends:
         return None
-    # Arms hang on the chain to the head, legs on the root: they part higher up in the tree.
+    # Arms branch from the chain to the head, legs from the root, higher up in the tree.
     return max(ends, key=lambda p: (int(tree.depth[tree.common(*p)]), abs(float(away[p[0]]))))
 
 
@@ -136,7 +136,7 @@ def _chains(tree: Tree, joint: int) -> list[list[int]]:
 
 
 def _upright(tree: Tree, hands: tuple[int, int], chest: int, up: int) -> float:
-    """1 where the up axis points up: arms leave the trunk above its root."""
+    """Return 1 if the up axis points up, else −1: arms leave the trunk above its root."""
     above = tree.places[chest, up] - tree.places[tree.path(chest)[0], up]
     return -1.0 if above < 0.0 else 1.0
 
@@ -144,14 +144,14 @@ def _upright(tree: Tree, hands: tuple[int, int], chest: int, up: int) -> float:
 def _head(
     tree: Tree, chest: int, mirror: Sequence[int], height: Floats, carried: Floats | None
 ) -> int | None:
-    """Find the joint of the middle above the arms with the most skin, else the highest."""
+    """Return the middle joint above the arms with the most skin, or else the highest."""
     measure = height if carried is None else carried
     inside = [j for j in tree.below(chest) if j != chest and mirror[j] == j]
     return max(inside, key=lambda j: float(measure[j]), default=None)
 
 
 def _legs(tree: Tree, mirror: Sequence[int], height: Floats) -> tuple[list[int], ...]:
-    """Chains of the pair of mirrored ends that lie lowest, from where they part."""
+    """Return the chains to the lowest pair of mirrored ends, from where they separate."""
     ends = [(j, m) for j, m in enumerate(mirror) if m > j and not tree.children[j]]
     if not ends:
         return ()
@@ -164,10 +164,10 @@ def _legs(tree: Tree, mirror: Sequence[int], height: Floats) -> tuple[list[int],
 def _ahead(
     tree: Tree, hands: Sequence[dict[str, list[int]]], height: Floats, forward: int
 ) -> float:
-    """1 where the forward axis points ahead, else −1.
+    """Return 1 if the forward axis points ahead, else −1.
 
-    Thumbs lie before little fingers in all postures that bodies are modelled in; without fingers
-    toes tell, and without toes glTF's own convention.
+    Thumbs are in front of little fingers in all postures in which bodies are modelled. Without
+    fingers, toes decide, and without toes glTF's own convention.
     """
     at = tree.places[:, forward]
     pairs = [(f["thumb"][0], list(f.values())[-1][0]) for f in hands if f]
@@ -179,7 +179,7 @@ def _ahead(
 
 
 def _fingers(tree: Tree, hand: int) -> dict[str, list[int]]:
-    """Fingers of a hand by name: the thumb starts nearest to the wrist, the others lie in a row."""
+    """Name the fingers of a hand: the thumb starts nearest to the wrist; others are in a row."""
     chains = _chains(tree, hand)
     if not 3 <= len(chains) <= 5:
         return {}
@@ -196,5 +196,5 @@ def _fingers(tree: Tree, hand: int) -> dict[str, list[int]]:
 
 
 def _out(tree: Tree, wrist: Floats, chain: Sequence[int]) -> float:
-    """How far a finger reaches from the wrist."""
+    """Return how far a finger extends from the wrist."""
     return float(np.linalg.norm(tree.places[chain[-1]] - wrist))

@@ -1,4 +1,4 @@
-"""A skeleton as a tree that can be asked about."""
+"""A skeleton as a tree, with queries."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The surface of a taken-in body, with what its parts are for AZee's sites."""
+"""The surface of an imported body, with its parts classified for AZee's sites."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ ROLES = {
     "hair": ("hair",),
     "brows": ("brow",),
 }
-"""Parts of a body that is not skin, by words in the names of materials."""
+"""Parts of a body other than skin, by words in the names of materials."""
 
 
 @dataclass(frozen=True, eq=False)
 class ForeignSurface(Surface):
-    """A surface whose parts have the names that its makers gave them.
+    """A surface whose parts have the names of the source.
 
     eyes: vertices of the eyeballs, (N,).
     """
@@ -31,7 +31,7 @@ class ForeignSurface(Surface):
 
     @cached_property
     def roles(self) -> NDArray[np.str_]:
-        """What each triangle is to the rules of the sites, (F,)."""
+        """Class of each triangle for the rules of the sites, (F,)."""
         roles = np.full(len(self.mesh.triangles), "skin", dtype="<U8")
         for part in self.mesh.parts:
             name = part.name.lower()
@@ -42,5 +42,5 @@ class ForeignSurface(Surface):
         return roles
 
     def on_parts(self, *names: str) -> Mask:
-        """Triangles of some parts of the signer's, (F,): clothes are skin here."""
+        """Return triangles of some parts of the signer, (F,): clothes count as skin here."""
         return np.isin(self.roles, names)

@@ -76,7 +76,7 @@ EXPRESSION = {
     "mouthSmileRight": 0.12,
     "browInnerUp": 0.12,
 }
-"""Laid into the resting face: lips that meet, and a friendly look."""
+"""Added to the neutral face: lips that meet, and a friendly look."""
 
 OTHERS = PHENOTYPES.keys() - {"signer"}
 

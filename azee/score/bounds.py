@@ -46,7 +46,7 @@ _MOST_NAMED = 12
 
 
 class Bounds:
-    """The bounds of named blocks, computed on demand and each once."""
+    """The bounds of named blocks, computed when needed and each once."""
 
     def __init__(
         self, names: Sequence[str], scores: Sequence[Score], placements: Sequence[Placement]

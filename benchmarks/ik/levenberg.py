@@ -290,7 +290,7 @@ def _descend(  # type: ignore[no-untyped-def]
         q, parents, offsets, zero, start, axis, scale, coordinate, active, column, kinds, nodes,
         locals_, weights, positions, rotations, axes, r, J,
     )  # fmt: skip
-    _ease(q, free, idle, keep, asked, r, J)
+    _posture_cost(q, free, idle, keep, asked, r, J)
     evaluations = 1
     f = 0.0
     for i in range(rows):
@@ -345,7 +345,7 @@ def _descend(  # type: ignore[no-untyped-def]
                 q, parents, offsets, zero, start, axis, scale, coordinate, active, column, kinds,
                 nodes, locals_, weights, positions, rotations, axes, tried, other,
             )  # fmt: skip
-            _ease(q, free, idle, keep, asked, tried, other)
+            _posture_cost(q, free, idle, keep, asked, tried, other)
             evaluations += 1
             g = 0.0
             for i in range(rows):
@@ -367,7 +367,7 @@ def _descend(  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _ease(q, free, idle, keep, at, r, J):  # type: ignore[no-untyped-def]
+def _posture_cost(q, free, idle, keep, at, r, J):  # type: ignore[no-untyped-def]
     """Add the residuals of the distance from idle, below those of the constraints."""
     for k in range(keep.shape[0]):
         r[at + k] = keep[k] * (q[free[k]] - idle[k])

@@ -121,7 +121,7 @@ def ours_laid_out(rig: Rig, problem: Problem) -> Answer:
     return Answer(q, seconds, program.evaluations)
 
 
-def yardstick(*, full: bool) -> Method:
+def lm_kernel(*, full: bool) -> Method:
     """Return the kernel of `levenberg` as a method; the time excludes laying out.
 
     Args: full: whether to minimise the posture cost too, with the same weights as ours.
@@ -201,6 +201,6 @@ METHODS: dict[str, Method] = {
     "ours, descents alone": ours_laid_out,
     "two-level": two_level,
     "scipy trf": scipy_trf,
-    "LM kernel, full objective": yardstick(full=True),
-    "LM kernel": yardstick(full=False),
+    "LM kernel, full objective": lm_kernel(full=True),
+    "LM kernel": lm_kernel(full=False),
 }

@@ -1,4 +1,4 @@
-"""The benchmarks run, at a tiny size, and their yardsticks measure what they say."""
+"""The benchmarks run, at a tiny size, and what they measure is right."""
 
 from __future__ import annotations
 

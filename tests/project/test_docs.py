@@ -25,6 +25,12 @@ def test_links_lead_to_files_that_exist(page: Path) -> None:
     assert [link for link in links if not (page.parent / link).exists()] == []
 
 
+def test_the_index_of_the_documents_names_every_page() -> None:
+    index = (ROOT / "docs" / "README.md").read_text(encoding="utf-8")
+    pages = {page.name for page in (ROOT / "docs").glob("*.md")} - {"README.md"}
+    assert pages - set(LINK.findall(index)) == set()
+
+
 def test_readme_opens_with_a_small_picture_that_moves_and_repeats_without_a_jump() -> None:
     (_, opening, *_) = (ROOT / "README.md").read_text(encoding="utf-8").split("\n\n")
     (shown,) = LINK.findall(opening)

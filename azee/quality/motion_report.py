@@ -182,7 +182,7 @@ def _reason(task: TimedTask, plan: Plan, residual: float) -> str:
     early = plan.monitor.early_ends.get(task.rank)
     if early is not None:
         return (
-            f"gives way at {float(early.time):.3f} s to {'/'.join(early.successor)}, "
+            f"ends early, at {float(early.time):.3f} s to {'/'.join(early.successor)}, "
             "which starts at the instant this ends and wants another posture"
         )
     worst, found = -math.inf, None

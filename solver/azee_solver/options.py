@@ -1,4 +1,4 @@
-"""Options of the solver, with defaults that measurement settled."""
+"""Options of the solver, with defaults that were measured."""
 
 from __future__ import annotations
 

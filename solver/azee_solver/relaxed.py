@@ -33,8 +33,8 @@ AGREEING_ENDS = 3
 class RelaxedProblem:
     """What is known so far about which tasks of a moment can be met at all.
 
-    given_up: factors of the weights of tasks that gave way to others even there. postures: (V,) in
-    which it met all that it was asked for.
+    given_up: factors of the weights of tasks that could not be met with the others even there.
+    postures: (V,) in which it met all that it was asked for.
     """
 
     def __init__(self, moment: Moment) -> None:

@@ -31,7 +31,19 @@ def result(*, met: bool) -> ConstraintResult:
 def report(met: int, missed: int) -> MotionReport:
     constraints = (*(result(met=True),) * met, *(result(met=False),) * missed)
     return MotionReport(
-        "sticks", 30, "tracks", 1, 0, 1, constraints, 0.0, None, (), (), (), look=tuple
+        "sticks",
+        30,
+        "tracks",
+        1,
+        0,
+        1,
+        constraints,
+        0.0,
+        None,
+        (),
+        (),
+        (),
+        measure_penetration=tuple,
     )
 
 

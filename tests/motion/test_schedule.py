@@ -140,8 +140,8 @@ def test_every_point_is_known_to_move_or_to_stay(point: Point) -> None:
 
 @pytest.mark.parametrize("constraint", CONSTRAINTS, ids=title)
 def test_every_constraint_is_a_posture_s_or_a_movement_s(constraint: Constraint) -> None:
-    found = bound(block("ONE", "0", "1", constraint))
-    assert len(found.postures) == (not isinstance(constraint, Transpath | Trill))
+    found = schedule(block("ONE", "0", "1", constraint))
+    assert len(found.posture_tasks) == (not isinstance(constraint, Transpath | Trill))
     assert len(found.all) == 1
     assert found.all[0].moves
 

@@ -19,21 +19,6 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 
-AWAITING_RENAMING: Sequence[str] = (
-    "azee/animation.py",
-    "azee/cli/compile.py",
-    "azee/cli/score.py",
-    "azee/compilation.py",
-    "azee/motion/",
-    "azee/quality/",
-    "docs/motion.md",
-    "docs/motion_table.py",
-    "solver/azee_solver/options.py",
-    "solver/azee_solver/relaxed.py",
-    "solver/azee_solver/starts.py",
-)
-"""Files and folders that still have such words; to be emptied as they are rewritten."""
-
 WORDS: Mapping[str, str] = {
     "ghost ghosts": "relaxed problem",
     "ease": "weight, given up, posture cost, joint-limit cost",
@@ -96,7 +81,7 @@ def _by_word(table: Mapping[str, str]) -> dict[str, str]:
 
 def _excused(path: Path, word: str) -> bool:
     name = path.relative_to(ROOT).as_posix()
-    return name.startswith((*AWAITING_RENAMING, *ALLOWED.get(word, ())))
+    return name.startswith(tuple(ALLOWED.get(word, ())))
 
 
 def words(text: str) -> Iterator[tuple[int, str]]:
@@ -165,19 +150,3 @@ def test_words_are_found_inside_names_and_sentences() -> None:
     assert (2, "look-on") in words("as before\nlook\non")
     assert (1, "poser") in words("class KeyPoser")
     assert (1, "ease") not in words("release increase")
-
-
-def test_a_file_without_such_words_is_taken_off_the_list() -> None:
-    known = {**_by_word(WORDS), **_by_word(NAMES)}
-    listed = {p.relative_to(ROOT).as_posix(): p for p in texts()}
-    clean = [
-        where
-        for where in AWAITING_RENAMING
-        if not any(
-            word in known
-            for name, path in listed.items()
-            if name.startswith(where)
-            for _, word in words(f"{path.stem}\n{path.read_text(encoding='utf-8')}")
-        )
-    ]
-    assert clean == [], "take these off AWAITING_RENAMING"

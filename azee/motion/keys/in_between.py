@@ -65,8 +65,8 @@ class InBetweenSolver:
             changing = beginning_or_ending(posture_tasks, time) if origin is Origin.BOUNDARY else []
             report = self._nearest(now, tasks, changing, ik_tasks)
             unmet = {c.task.constraint for c in report.constraints if not c.met}
-            pressing = [*changing, *(t for t in tasks if t.constraint in unmet)]
-            keyed = self.selection.between_boundaries(pressing, report.coordinates - q)
+            urgent = [*changing, *(t for t in tasks if t.constraint in unmet)]
+            keyed = self.selection.between_boundaries(urgent, report.coordinates - q)
             out.append(
                 KeyPosture(
                     time, report.coordinates, keyed,
@@ -108,14 +108,14 @@ class InBetweenSolver:
         return searched if fewer < left else report
 
     def _widening(
-        self, tasks: Sequence[TimedTask], pressing: Collection[TimedTask]
+        self, tasks: Sequence[TimedTask], urgent: Collection[TimedTask]
     ) -> Iterator[frozenset[str]]:
         """Yield the limbs that may move: without head and trunk, without the trunk, all.
 
-        Limbs that a pressing task names may always move.
+        Limbs that an urgent task names may always move.
         """
-        new = [t for t in tasks if t in pressing]
-        lasting = [t for t in tasks if t not in pressing]
+        new = [t for t in tasks if t in urgent]
+        lasting = [t for t in tasks if t not in urgent]
         if not new:
             new, lasting = lasting, []
         named = {t.limb for t in new}

@@ -149,9 +149,9 @@ def _residual_ratios(
 ) -> Array:
     """Return the largest ratio of residual to allowed residual at every instant, (T,).
 
-    Allowed is `TOLERANCE_SHARE` of the tolerance. A key is settled for a task if it keys all limbs
+    Allowed is `TOLERANCE_SHARE` of the tolerance. A key is decided for a task if it keys all limbs
     that the task uses, or was solved without meeting it: no better posture is to be had there.
-    Between settled keys the larger of their residuals, times `UNMET_SHARE`, is allowed.
+    Between decided keys the larger of their residuals, times `UNMET_SHARE`, is allowed.
     """
     ratio = np.zeros(len(samples.times))
     for task in monitor.measured_tasks:
@@ -161,9 +161,9 @@ def _residual_ratios(
         residual = monitor.residual(task, samples.only(rows))
         by_limb = [_rows_around(key_rows[limb], rows) for limb in task.used_limbs or key_rows]
         keys = np.unique(np.concatenate(by_limb))
-        settled = np.isin(keys, [*unmet_rows.get(task.constraint, ())])
-        settled |= np.all([np.isin(keys, own) for own in by_limb], axis=0)
-        ends = keys[settled]
+        decided = np.isin(keys, [*unmet_rows.get(task.constraint, ())])
+        decided |= np.all([np.isin(keys, own) for own in by_limb], axis=0)
+        ends = keys[decided]
         allowed = np.full(len(ends) + 1, monitor.tolerance(task) * TOLERANCE_SHARE)
         inside = np.flatnonzero((ends >= rows.start) & (ends < rows.stop))
         allowed[inside] = np.fmax(

@@ -30,7 +30,7 @@ class KeyPostureSolver:
     """Solves key postures in order of time, and keeps the state of the body between them.
 
     What constraints leave open is drawn to neutral, never to the posture before. Drawn to the
-    posture before, a trunk that leans gave way a little at each of twenty keyframes and ended at
+    posture before, a trunk that leans bent a little more at each of twenty keyframes and ended at
     its limits, 40° twisted (ADR 6). The search starts from the posture before only in limbs that
     one block goes on constraining, so that no sign inherits an odd elbow from the last one.
 

@@ -6,7 +6,18 @@ from collections.abc import Iterable
 
 from azee.motion.tasks.timed_task import TimedTask
 from azee_solver.binding import Binding
-from azee_solver.constraint import Constraint, Look, LookAt, Morph, Orient, Place, Relation, Rotate
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+    Transpath,
+    Trill,
+)
 
 _TINY_RAD = 1e-9
 
@@ -42,7 +53,7 @@ def _targets(
                 yield ("rotate", bone.key(binding.dominant)), (axis, angle)
             case Look() | LookAt():
                 yield ("gaze",), constraint
-            case _:
+            case Orient() | Morph() | Trill() | Transpath():
                 pass
 
 

@@ -82,15 +82,15 @@ class KeySelection:
         changing = [*changing]
         return limbs_used(t for t in tasks if t not in changing) - limbs_used(changing)
 
-    def between_boundaries(self, pressing: Iterable[TimedTask], moved: Array) -> frozenset[str]:
+    def between_boundaries(self, urgent: Iterable[TimedTask], moved: Array) -> frozenset[str]:
         """Return the limbs that a posture keys inside a movement.
 
-        Args: pressing: tasks that begin or end there, or are unmet. moved: (V,) how far the
+        Args: urgent: tasks that begin or end there, or are unmet. moved: (V,) how far the
             posture is from where the movement has it.
         """
         if self.flat:
             return frozenset(self.limbs.names)
-        return limbs_moved(pressing) | self._limbs_beyond(moved, UNCHANGED_RAD)
+        return limbs_moved(urgent) | self._limbs_beyond(moved, UNCHANGED_RAD)
 
     def _limbs_beyond(self, moved: Array, least: float) -> frozenset[str]:
         """Return the limbs with a coordinate that moved by more than `least`."""

@@ -13,7 +13,17 @@ from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
 from azee_solver.binding import Binding
-from azee_solver.constraint import Constraint, LookAt, Morph, Place, Rotate, Transpath, Trill
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
 from azee_solver.footprint import footprint
 from azee_solver.geometry import (
     Between,
@@ -133,7 +143,7 @@ def _posture_equivalent(constraint: Constraint) -> Constraint:
             return Place(site, Moving(path, WorldPoint(0, 0, 0), WorldPoint(0, 0, 0)))
         case Trill(bone=bone, axis=axis):
             return Rotate(bone, axis, 0.0)
-        case _:
+        case Place() | Orient() | Look() | LookAt() | Rotate() | Morph():
             return constraint
 
 

@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from azee.clip.clip import Clip
 from azee.clip.edit import shifted
-from azee.clip.resample import rate, sampled
+from azee.clip.resample import EVEN_S, rate, sampled
 from azee.clip.spline import minimum_jerk
 from azee_rig.coordinates import Coordinates
 
@@ -179,4 +179,4 @@ def common_rate(clips: Sequence[Clip]) -> float | None:
 
 def _apart(times: Array) -> Array:
     """Leave out times that a rounding error alone tells from the one before."""
-    return np.asarray(times[np.r_[True, np.diff(times) > 1e-9]])
+    return np.asarray(times[np.r_[True, np.diff(times) > EVEN_S]])

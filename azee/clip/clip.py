@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.clip.finite import check_numbers, check_times
+
 
 @dataclass(frozen=True, slots=True)
 class Label:
@@ -37,6 +39,8 @@ class Clip:
     times: (T,) seconds, increasing. coordinates: (T, V) radians, in the rig's order.
     units: names of the M face units that ever move; unit_weights: (T, M).
     labels: blocks and utterances, in order of start.
+
+    Raises: ValueError: the arrays do not fit each other, or hold what is no number.
     """
 
     times: NDArray[np.float64]
@@ -49,10 +53,12 @@ class Clip:
         frames = len(self.times)
         if (np.ndim(self.times), np.ndim(self.coordinates)) != (1, 2):
             raise ValueError("a clip has one time and one row of coordinates a frame")
-        if not frames or np.any(np.diff(self.times) <= 0.0):
-            raise ValueError("times do not increase")
+        check_times(self.times)
         if len(self.coordinates) != frames or self.unit_weights.shape != (frames, len(self.units)):
             raise ValueError("times, coordinates and unit weights do not fit each other")
+        check_numbers("coordinates", self.coordinates)
+        check_numbers("weights of the face", self.unit_weights)
+        check_numbers("times of labels", [t for x in self.labels for t in (x.start_s, x.end_s)])
         for name in ("times", "coordinates", "unit_weights"):
             array = np.array(getattr(self, name), dtype=np.float64)
             array.setflags(write=False)

@@ -8,16 +8,20 @@ from dataclasses import replace
 import numpy as np
 
 from azee.clip.clip import Clip, Label
+from azee.clip.finite import LEAST_STEP_S
 from azee.clip.resample import sampled
 from azee_rig.coordinates import Coordinates
 from azee_rig.mirror import mirrored, mirrored_units
+
+APART_S = LEAST_STEP_S
+"""Times that are nearer are one: files round them."""
 
 
 def cut(clip: Clip, start_s: float, end_s: float, coordinates: Coordinates) -> Clip:
     """Return the clip from one time to another, its frames counted from 0.
 
-    There is a frame at each cut: where the clip has none, one is sampled. Labels keep what of
-    them lies inside.
+    There is a frame at each cut: where the clip has none, one is sampled, and takes the place of
+    frames that are no farther than a rounding error. Labels keep what of them lies inside.
 
     Raises: ValueError: the times are not in order or outside the clip.
     """
@@ -26,8 +30,9 @@ def cut(clip: Clip, start_s: float, end_s: float, coordinates: Coordinates) -> C
         raise ValueError(
             f"{start_s:g} s to {end_s:g} s is no part of a clip from {first:g} s to {last:g} s"
         )
-    between = clip.times[(clip.times > start_s) & (clip.times < end_s)]
-    times = np.unique(np.r_[start_s, between, end_s])
+    between = clip.times[(clip.times > start_s + APART_S) & (clip.times < end_s - APART_S)]
+    last_s = [end_s] if end_s - start_s > APART_S else []
+    times = np.r_[start_s, between, last_s]
     part = sampled(clip, times, coordinates)
     kept = [
         Label(label.path, max(label.start_s, start_s), min(label.end_s, end_s))

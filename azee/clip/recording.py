@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.clip.finite import check_numbers, check_times
 from azee_rig.rotation import to_matrices
 from azee_rig.skeleton import Skeleton, frozen
 
@@ -24,6 +25,9 @@ class Recording:
     relative to the parent. translations: (T, J, 3) metres from the parent's origin, in the
     parent's axes: the skeleton's offsets, but for joints that also slide, such as the root.
     notes: what had to be guessed or put right while reading, for the user.
+
+    Raises: ValueError: the arrays do not fit the skeleton, hold what is no number, or put a joint
+        farther away than anything is.
     """
 
     skeleton: Skeleton
@@ -37,6 +41,11 @@ class Recording:
         shape = (len(self.times), len(self.skeleton.names))
         if self.rotations.shape != (*shape, 4) or self.translations.shape != (*shape, 3):
             raise ValueError("times, rotations and translations do not fit the skeleton")
+        check_times(self.times)
+        check_numbers("rotations", self.rotations)
+        check_numbers("lengths", self.translations)
+        check_numbers("lengths", self.skeleton.offsets)
+        check_numbers("lengths", list(self.tips.values()))
         for name in ("times", "rotations", "translations"):
             object.__setattr__(self, name, frozen(getattr(self, name), np.float64))
 

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.clip import Clip
+from azee.clip.finite import LEAST_STEP_S
 from azee.clip.retarget_source import SIDES, Measured
 from azee_rig.chain import Chain, Frames
 from azee_rig.rig import Rig
@@ -79,9 +80,10 @@ def retarget(source: Measured, rig: Rig) -> Retargeted:
     q = np.clip(q, rig.coordinates.lower, rig.coordinates.upper)
     fit = _Arms(rig, source, q)
     first = fit.solved(q, q)
-    wish = _smoothed(first, source.times)
+    wish = smoothed(first, source.times)
     found = fit.steadiest([fit.solved(start, wish) for start in fit.starts(wish)], wish)
-    found = _eased(found, source.times)
+    for columns in fit.columns:
+        found[:, columns] = eased(found[:, columns], source.times)
     wrist, palm = fit.off(found)
     names, weights = source.units
     known = [i for i, name in enumerate(names) if name in rig.units]
@@ -237,24 +239,29 @@ def _only(chain: Chain, wanted: Sequence[int]) -> tuple[Chain, dict[int, int]]:
     return part, number
 
 
-def _eased(q: Floats, times: Floats) -> Floats:
+def eased(q: Floats, times: Floats) -> Floats:
     """Spread over some frames what no joint does in one, such as a forearm from limit to limit."""
     if len(times) < 3:
         return q
-    step = float(times[1] - times[0])
-    half = max(1, int(SMOOTH_S / step))
-    fast = np.abs(np.diff(q, axis=0, prepend=q[:1])) > FASTEST_RAD_S * step
-    near = np.stack([np.convolve(f, np.ones(2 * half + 1), mode="same") > 0 for f in fast.T], 1)
-    share = _smoothed(near.astype(np.float64), times)
-    return np.asarray(q + share * (_smoothed(q, times) - q))
+    fast = np.zeros(q.shape)
+    fast[1:] = np.abs(np.diff(q, axis=0)) > FASTEST_RAD_S * np.diff(times)[:, None]
+    first, last = _window(times, np.full(len(times), SMOOTH_S))
+    sums = np.cumsum(np.vstack([np.zeros(q.shape[1]), fast]), axis=0)
+    near = sums[last] > sums[first]
+    share = smoothed(near.astype(np.float64), times)
+    return np.asarray(q + share * (smoothed(q, times) - q))
 
 
-def _smoothed(q: Floats, times: Floats) -> Floats:
+def smoothed(q: Floats, times: Floats) -> Floats:
     """Means over a window of time that is the narrower the nearer to an end, (T, V)."""
-    if len(times) < 3:
-        return q
-    half = max(1, int(SMOOTH_S / float(times[1] - times[0])))
     sums = np.cumsum(np.vstack([np.zeros(q.shape[1]), q]), axis=0)
-    n = np.arange(len(q))
-    reach = np.minimum(np.minimum(n, len(q) - 1 - n), half)
-    return np.asarray((sums[n + reach + 1] - sums[n - reach]) / (2 * reach + 1)[:, None])
+    reach = np.minimum(SMOOTH_S, np.minimum(times - times[0], times[-1] - times))
+    first, last = _window(times, reach)
+    return np.asarray((sums[last] - sums[first]) / (last - first)[:, None])
+
+
+def _window(times: Floats, reach: Floats) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the first frame, and the one after the last, that lie within a time of each, (T,)."""
+    first = np.searchsorted(times, times - reach - LEAST_STEP_S / 2.0)
+    last = np.searchsorted(times, times + reach + LEAST_STEP_S / 2.0)
+    return first, last

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.clip import Clip, Label
+from azee.clip.finite import check_numbers, check_times
 from azee.clip.recording import Recording
 from azee_rig.importing.bone_map import BoneMap
 from azee_rig.importing.propose import propose
@@ -29,6 +30,9 @@ FINGERS = ("index", "middle", "ring", "little")
 BACK_SHARE = {"back_1": 0.45, "back_2": 0.55}
 HEAD_SHARE = {"neck": 0.5, "head": 0.5}
 """How the turns of trunk and head are shared."""
+LEAST_SHARE, LEAST_M = 0.05, 1e-4
+"""A part of the body that is shorter than this share of the longest segment of the arms has no
+length, nor has one that is shorter than this."""
 UPRIGHT_DEG = 20.0
 """A figure that leans less stands straight along an axis of its file."""
 TURNS = {"flexion": (0, 1.0), "axial": (1, 1.0), "lateral": (2, -1.0)}
@@ -47,6 +51,8 @@ class Measured:
     in the chest's frame. palms: (T, 2, 3, 3) columns x, dir, nrm of the palms there. coordinates:
     by name, (T,) radians: fingers, trunk, head. units: names and weights (T, M) of face units.
     notes: what was guessed or left out.
+
+    Raises: ValueError: the arms have no length, or a number is none.
     """
 
     times: Floats
@@ -58,6 +64,15 @@ class Measured:
     units: tuple[tuple[str, ...], Floats]
     labels: tuple[Label, ...] = ()
     notes: tuple[str, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        check_times(self.times)
+        if not self.arm_m > 0.0:
+            raise ValueError("arms have no length")
+        for name in ("arm_m", "wrists", "elbows", "palms"):
+            check_numbers(name, getattr(self, name))
+        for name, values in self.coordinates.items():
+            check_numbers(name, values)
 
 
 def measure_clip(clip: Clip, rig: Rig) -> Measured:
@@ -102,7 +117,10 @@ def measure_recording(recording: Recording) -> Measured:
     bones = propose(Tree(skeleton.names, skeleton.parents, places[0]))
     if bones.lacking:
         raise RetargetError(f"the skeleton has no joints that could be {', '.join(bones.lacking)}")
-    return _Reader(recording, bones, places, turned).measured()
+    try:
+        return _Reader(recording, bones, places, turned).measured()
+    except ValueError as error:
+        raise RetargetError(str(error)) from error
 
 
 class _Reader:
@@ -114,6 +132,7 @@ class _Reader:
         self.recording, self.bones, self.places, self.turned = recording, bones, places, turned
         self.index = {name: j for j, name in enumerate(recording.skeleton.names)}
         self.notes = [*recording.notes]
+        self._check_lengths()
         upright = self._upright()
         self.still = recording.skeleton.rest_positions if upright else places[0]
         """Places of the joints in an upright posture: the rest pose, or else the first frame."""
@@ -123,6 +142,31 @@ class _Reader:
     def at(self, bone: str) -> Floats:
         """Where a bone begins, (T, 3)."""
         return self.places[:, self.index[self.bones.bones[bone][0]]]
+
+    def _check_lengths(self) -> None:
+        """Refuse a body whose directions nothing tells. Raises: RetargetError."""
+        ends = {
+            "upper arm": ("arm", "f_arm"), "forearm": ("f_arm", "palm"),
+        }  # fmt: skip
+        lengths = {
+            f"{part} {side}": self._apart(f"{above}_{side}", f"{below}_{side}")
+            for side in SIDES
+            for part, (above, below) in ends.items()
+        }
+        longest = max(lengths.values())
+        lengths["line of the shoulders"] = self._apart("arm_L", "arm_R")
+        lengths["way from the hips to the head"] = float(
+            np.linalg.norm(
+                self.places[0, self._joint("head")] - self.places[0, self.index[self.bones.root]]
+            )
+        )
+        for part, length in lengths.items():
+            if length <= max(LEAST_M, LEAST_SHARE * longest):
+                raise RetargetError(f"the {part} has no length")
+
+    def _apart(self, first: str, second: str) -> float:
+        """Median distance of two joints, metres."""
+        return float(np.median(np.linalg.norm(self.at(first) - self.at(second), axis=-1)))
 
     def measured(self) -> Measured:
         shoulders = np.stack([self.at(f"arm_{s}") for s in SIDES], axis=1)
@@ -165,8 +209,11 @@ class _Reader:
         axis = int(np.abs(up).argmax())
         if abs(up[axis]) > np.cos(np.radians(UPRIGHT_DEG)):
             up = np.sign(up[axis]) * np.eye(3)[axis]
-        left = self.still[self._joint("arm_L")] - self.still[self._joint("arm_R")]
-        left = _unit(left - up * (left @ up))
+        across = self.still[self._joint("arm_L")] - self.still[self._joint("arm_R")]
+        left = across - up * (across @ up)
+        if np.linalg.norm(left) < LEAST_SHARE * np.linalg.norm(across):
+            raise RetargetError("one shoulder stands above the other")
+        left = _unit(left)
         return np.stack([left, up, np.cross(left, up)], axis=-1)
 
     def _palm(self, side: str) -> Floats:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -19,6 +20,8 @@ from azee.clip.blend import joined
 from azee.clip.clip import Clip, Label
 from azee.clip.edit import cut, left_handed, retimed, shifted
 from azee.clip.resample import at_rate, sampled
+from azee.clips import save_clip
+from azee.export.formats.gltf.document import Document
 from azee_rig.load import load_rig
 from azee_rig.recover import recover
 from azee_rig.rig import Rig
@@ -186,6 +189,53 @@ def test_a_clip_that_makes_no_sense_is_refused(change: dict[str, Any], tmp_path:
     np.savez(path, **arrays)
     with pytest.raises(ClipFileError, match=r"`.*x\.npz`"):
         read_clip(path, RIG)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e9])
+@pytest.mark.parametrize("where", ["times", "coordinates", "unit_weights", "labels"])
+def test_a_clip_holds_numbers_of_bodies_and_clocks_only(where: str, bad: float) -> None:
+    arrays: dict[str, Floats] = {
+        "times": np.arange(3.0),
+        "coordinates": np.tile(C.idle, (3, 1)),
+        "unit_weights": np.zeros((3, 1)),
+    }
+    labels: tuple[Label, ...] = ()
+    if where == "labels":
+        labels = (Label(("a",), 0.0, bad),)
+    else:
+        arrays[where][(-1,) * arrays[where].ndim] = bad
+    with pytest.raises(ValueError, match=r"times|coordinates|weights of the face|labels"):
+        Clip(arrays["times"], arrays["coordinates"], ("jawOpen",), arrays["unit_weights"], labels)
+
+
+@pytest.mark.parametrize("step_s", [1e-8, 9e-6])
+def test_frames_that_no_clock_tells_apart_make_no_clip(step_s: float) -> None:
+    with pytest.raises(ValueError, match=r"frames follow each other every .* the least is 1e-05"):
+        Clip(np.arange(4.0) * step_s, np.tile(C.idle, (4, 1)), (), np.zeros((4, 0)))
+    with pytest.raises(ValueError, match="the least is"):
+        retimed(Clip(np.arange(4.0), np.tile(C.idle, (4, 1)), (), np.zeros((4, 0))), 3 * step_s)
+
+
+def test_a_cut_takes_the_place_of_a_frame_a_rounding_error_away() -> None:
+    clip = Clip(np.arange(5.0), np.tile(C.idle, (5, 1)), (), np.zeros((5, 0)))
+    part = cut(clip, 1.0 - 1e-9, 3.0 + 1e-9, C)
+    assert part.times == pytest.approx([0.0, 1.0, 2.0], abs=1e-8)
+    assert len(cut(clip, 2.0, 2.0 + 1e-9, C).times) == 1
+
+
+def test_no_writer_lets_through_what_is_no_number(tmp_path: Path) -> None:
+    """A clip is checked when it is made; a body whose lengths are none is not."""
+    offsets = np.array(RIG.skeleton.offsets)
+    offsets[5, 1] = np.inf
+    broken = replace(RIG, skeleton=replace(RIG.skeleton, offsets=offsets))
+    clip = Clip(np.arange(3.0), np.tile(C.idle, (3, 1)), (), np.zeros((3, 0)))
+    for suffix in (".bvh", ".json", ".glb"):
+        path = tmp_path / f"x{suffix}"
+        with pytest.raises(ValueError, match=r"numbers|JSON"), np.errstate(all="ignore"):
+            save_clip(clip, broken, path)
+        assert not path.exists()
+    with pytest.raises(ValueError, match="glTF holds no infinite numbers"):
+        Document("azee").accessor(np.array([1.0, np.nan], np.float32))
 
 
 def test_coordinates_come_back_from_the_joints(signer: Rig) -> None:

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from azee.cli.main import run
-from azee.clip.bvh import read_bvh
+from azee.clip.bvh import parse_bvh, read_bvh
 from azee.clip.clip import Clip
-from azee.clip.retarget import retarget
-from azee.clip.retarget_source import measure_clip, measure_recording
+from azee.clip.retarget import retarget, smoothed
+from azee.clip.retarget_source import RetargetError, measure_clip, measure_recording
 from azee.export.formats.bvh import write_bvh
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
@@ -96,3 +97,89 @@ def test_a_clip_command_carries_another_skeletons_motion_over(
     )
     said = capsys.readouterr().err
     assert f"carried over to `signer`: hands are where they were in all {FRAMES} frames" in said
+
+
+def stick_figure(frames: int, change: tuple[str, str] = ("", ""), step_s: float = 1 / 30) -> str:
+    """BVH of a figure with arms and no fingers, held out, whose forearms bend by 10° a frame."""
+    arm = (
+        "JOINT {side}Arm {{ OFFSET {s}15 45 0 CHANNELS 3 Zrotation Xrotation Yrotation "
+        "JOINT {side}ForeArm {{ OFFSET {s}28 0 0 CHANNELS 3 Zrotation Xrotation Yrotation "
+        "JOINT {side}Hand {{ OFFSET {s}25 0 0 CHANNELS 3 Zrotation Xrotation Yrotation "
+        "End Site {{ OFFSET {s}10 0 0 }} }} }} }} "
+    )
+    text = (
+        "HIERARCHY ROOT Hips { OFFSET 0 95 0 CHANNELS 6 Xposition Yposition Zposition "
+        "Zrotation Xrotation Yrotation JOINT Head { OFFSET 0 60 0 "
+        "CHANNELS 3 Zrotation Xrotation Yrotation End Site { OFFSET 0 20 0 } } "
+        + arm.format(side="Left", s="")
+        + arm.format(side="Right", s="-")
+        + "}\nMOTION\n"
+    )
+    if change[0]:
+        assert change[0] in text
+        text = text.replace(*change)
+    rows = [
+        f"0 95 0 0 0 0  0 0 0  0 0 0  0 0 {-10 * t}  0 0 0  0 0 0  0 0 {10 * t}  0 0 0"
+        for t in range(frames)
+    ]
+    head = f"Frames: {frames}\nFrame Time: {step_s:g}\n"
+    return text + head + "\n".join(rows) + "\n"
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3, 4, 8, 9])
+def test_any_number_of_frames_can_be_retargeted(
+    signer: Rig, frames: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "few.bvh"
+    path.write_text(stick_figure(frames), encoding="ascii")
+    assert run(["retarget", str(path), "-o", str(tmp_path / "few.npz")]) == 0
+    assert run(["clip", "convert", str(path), "-o", str(tmp_path / "same.bvh")]) == 0
+    assert f"s, {frames} frames" in capsys.readouterr().err
+    assert len(read_bvh(tmp_path / "same.bvh").times) == frames
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (("28 0 0", "0 0 0"), "the upper arm L has no length"),
+        (("-25 0 0", "0 1e-320 0"), "the forearm R has no length"),
+        (("15 45 0", "0 45 0"), "the line of the shoulders has no length"),
+        (("0 60 0", "0 0 0"), "the way from the hips to the head has no length"),
+    ],
+)
+def test_a_body_that_tells_no_directions_is_refused(change: tuple[str, str], said: str) -> None:
+    text = stick_figure(3, change)
+    if change[0] == "15 45 0":
+        text = text.replace("-0 45", "0 45")
+    with pytest.raises(RetargetError, match=said):
+        measure_recording(parse_bvh(text))
+
+
+def test_shoulders_on_top_of_each_other_are_refused() -> None:
+    text = stick_figure(3, ("OFFSET -15 45 0", "OFFSET 15 20 0"))
+    with pytest.raises(RetargetError, match="one shoulder stands above the other"):
+        measure_recording(parse_bvh(text))
+
+
+def test_arms_without_length_are_refused_in_words(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = tmp_path / "short.bvh", tmp_path / "x.npz"
+    path.write_text(stick_figure(3, ("28 0 0", "0 0 0")), encoding="ascii")
+    for command in (["retarget"], ["clip", "convert"]):
+        assert run([*command, str(path), "-o", str(out)]) == 1
+        assert "error[not-a-clip]" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_smoothing_is_a_matter_of_time_not_of_frames() -> None:
+    """A clip of a millisecond a frame is smoothed over the same time as one of a thirtieth."""
+    rng = np.random.default_rng(2)
+    for step in (0.001, 1 / 30):
+        times = np.arange(901) * step
+        wave = np.sin(2 * np.pi * times / 0.3)[:, None]
+        inner = (times > 0.3) & (times < times[-1] - 0.3)
+        assert np.abs(smoothed(wave, times)[inner]).max() < 0.25
+    uneven: NDArray[np.float64] = np.cumsum(rng.uniform(0.01, 0.08, 50))
+    assert smoothed(uneven[:, None], uneven)[0, 0] == uneven[0]
+    assert smoothed(np.ones((50, 1)), uneven) == pytest.approx(np.ones((50, 1)))

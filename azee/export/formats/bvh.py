@@ -116,5 +116,10 @@ def _frame_time(times: NDArray[np.float64]) -> float:
 
 
 def _numbers(values: NDArray[np.float64]) -> str:
-    """Six decimals: a millionth of a degree, ten nanometres. Never a minus zero."""
+    """Six decimals: a millionth of a degree, ten nanometres. Never a minus zero.
+
+    Raises: ValueError: one is infinite or not a number.
+    """
+    if not np.isfinite(values).all():
+        raise ValueError("BVH holds no infinite numbers and none that are not numbers")
     return " ".join(f"{value:.6f}" for value in np.round(values, 6) + 0.0)

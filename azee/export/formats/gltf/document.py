@@ -105,6 +105,8 @@ class Document:
         )
 
     def _view(self, array: NDArray[Any], target: Target | None) -> int:
+        if array.dtype.kind == "f" and not np.isfinite(array).all():
+            raise ValueError("glTF holds no infinite numbers and none that are not numbers")
         data = np.ascontiguousarray(array).tobytes()
         offset = len(self.buffer)
         self.buffer += data + bytes(-len(data) % 4)

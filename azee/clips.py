@@ -85,7 +85,8 @@ def _shipped(path: Path, name: str) -> str:
 
 
 def _recorded(path: Path, rig: Rig | None) -> OpenClip:
-    from azee.clip.bvh import BvhError, read_bvh
+    from azee.clip.bvh import read_bvh
+    from azee.clip.bvh_hierarchy import BvhError
     from azee.clip.own_bvh import LOST_RAD, is_own, own_clip
     from azee_rig.load import load_rig
 

@@ -63,7 +63,8 @@ def retarget(file: Path, outputs: Sequence[Path], rig: str, unit: str | None, qu
 
 def _measured(file: Path, unit: str | None) -> Measured:
     """Read and measure. Raises: AZeeError: cannot-read, not-a-clip."""
-    from azee.clip.bvh import BvhError, read_bvh
+    from azee.clip.bvh import read_bvh
+    from azee.clip.bvh_hierarchy import BvhError
     from azee.clip.retarget_source import RetargetError, measure_clip, measure_recording
     from azee.clips import open_clip
 

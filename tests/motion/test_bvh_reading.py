@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.clip.bvh import BvhError, parse_bvh, read_bvh
+from azee.clip.bvh import UNITS_M, parse_bvh, read_bvh
+from azee.clip.bvh_hierarchy import BvhError
+from azee.clip.bvh_motion import read_motion
 from azee.clip.clip import Clip
 from azee.export.formats.bvh import write_bvh
 from azee_rig.rig import Rig
@@ -83,15 +86,15 @@ def test_the_same_figure_in_the_hand_of_other_exporters(written: str, tmp_path: 
         (("Frames: 2", "Frames: 7"), "says 7 frames and has 2: 2 are kept"),
         (("20 0 0 0 90", "20 0"), "the last frame has 10 of 13 values"),
         (("Frame Time: 0.04", "Frame Time: 0"), "30 frames a second"),
-        (("5 90 0 0 0 20", "5 0.5 0 0 0 20"), "`Hips` are taken as added to its OFFSET"),
+        (("0 20 0 0 0 0\n", "0 .5 0 0 0 0\n"), "2 joints, such as `Hips`, are taken as added"),
         (("OFFSET 0 130 0", "OFFSET 0 5 0"), "no usual unit makes a person"),
     ],
 )
 def test_what_had_to_be_guessed_is_said(change: tuple[str, str], note: str) -> None:
     assert change[0] in FIGURE
     text = FIGURE.replace(*change)
-    if "0.5" in change[1]:
-        text = text.replace("5 90 0 90", "5 0.5 0 90")
+    if ".5" in change[1]:
+        text = text.replace("0 20 0 0 0 90", "0 .5 0 0 0 90")
     assert any(note in said for said in parse_bvh(text).notes)
 
 
@@ -104,7 +107,17 @@ def test_what_had_to_be_guessed_is_said(change: tuple[str, str], note: str) -> N
         (("1 Zrotation", "1 Wrotation"), "line 9: `Wrotation` is not a channel"),
         (("End Site\n\t\t\t{", "End Site\n\t\t\t"), "line"),
         (("}\nMOTION", "MOTION"), "before all its braces are closed"),
-        (("0 0 0 5 90", "nan 0 0 5 90"), "infinite or not a number"),
+        (("0 0 0 5 90", "nan 0 0 5 90"), "line 24: `nan` is infinite or not a number"),
+        (("0 0 0 5 90", "0 0 -1e300 5 90"), "line 24: `-1e300` is too large"),
+        (("OFFSET 0 20 0", "OFFSET 0 2e200 0"), "line 12: `2e200` is too large"),
+        (("OFFSET 0 20 0", "OFFSET 0 -inf 0"), "line 12: `-inf` is infinite"),
+        (("HIERARCHY", "End Site { OFFSET 0 0 0 }"), "line 1: an end site outside of all joints"),
+        (("End Site", "End Site { End Site"), "line 14: an end site outside of all joints"),
+        (("1 Zrotation", "1e9 Zrotation"), "line 9: `1e9` is no number of channels"),
+        (("1 Zrotation", "-1 Zrotation"), "line 9: `-1` is no number of channels"),
+        (("1 Zrotation", "1 Zrotation CHANNELS 1 Xrotation"), "line 9: a second CHANNELS"),
+        (("6 Xposition Y", "6 Yposition Y"), "line 13: a joint has one position twice"),
+        (("Spine\n\t{", "Spine\n\t"), "line 8: `OFFSET` where `{` should stand"),
         (("HIERARCHY", "<html>"), "`<html>` is not part"),
     ],
 )
@@ -136,3 +149,169 @@ def test_what_we_write_we_read(signer: Rig, tmp_path: Path) -> None:
         for n in signer.skeleton.names
     ]
     np.testing.assert_allclose(places[:, order], ours, atol=1e-6)
+
+
+def six_channel_figure(offset: str, hips: str, spine: str) -> str:
+    """BVH of a figure below a root of its own, hips and spine with six channels each."""
+    six = "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
+    three = "CHANNELS 3 Zrotation Xrotation Yrotation"
+    return (
+        f"HIERARCHY ROOT joint_Root {{ OFFSET 0 0 0 {six} JOINT Hips {{ OFFSET {offset} {six} "
+        f"JOINT LeftLeg {{ OFFSET 9 -4 0 {three} End Site {{ OFFSET 0 -90 0 }} }} "
+        f"JOINT Spine {{ OFFSET 0 25 0 {six} "
+        f"JOINT Head {{ OFFSET 0 40 0 {three} End Site {{ OFFSET 0 20 0 }} }} }} }} }}\n"
+        f"MOTION\nFrames: 1\nFrame Time: 0.04\n"
+        f"0 0 0 0 0 0 {hips} 0 0 0 0 0 0 {spine} 0 0 0 0 0 0\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("offset", "hips", "spine", "places", "notes"),
+    [
+        ("1 94 -452", "-1 93 -9", "0 25 0", [[-1, 93, -9], [-1, 118, -9]], 1),
+        ("1 94 -452", "-1 93 -9", "0 1 0", [[0, 187, -461], [0, 213, -461]], 2),
+        ("1 94 -452", "0 2 1", "0 0 0", [[1, 96, -451], [1, 121, -451]], 2),
+        ("1 94 -452", "0 2 1", "0 24 0", [[0, 2, 1], [0, 26, 1]], 1),
+    ],
+)
+def test_one_file_has_one_meaning_of_positions(
+    offset: str, hips: str, spine: str, places: list[list[float]], notes: int
+) -> None:
+    """What carries the figure goes far from its OFFSET: joints that slide little tell."""
+    read = parse_bvh(six_channel_figure(offset, hips, spine))
+    np.testing.assert_allclose(read.frames()[0][0, [1, 3]], np.array(places) / 100, atol=1e-12)
+    assert len(read.notes) == notes
+    # The unit comes of the figure, not of how far from the origin it stands.
+    assert read.notes[-1].startswith("lengths are taken for cm: the figure is 1.")
+
+
+@pytest.mark.parametrize(
+    ("hips", "added"), [("-1 93 -9", False), ("0 0 0", True), ("3 9 -20", True)]
+)
+def test_where_only_carriers_slide_zero_alone_is_added(hips: str, added: bool) -> None:
+    text = six_channel_figure("1 94 -452", hips, "").replace(
+        "0 25 0 CHANNELS 6 Xposition Yposition Zposition", "0 25 0 CHANNELS 3"
+    )
+    read = parse_bvh(text)
+    assert any("added" in note for note in read.notes) == added
+
+
+@pytest.mark.parametrize(
+    ("written", "rate", "said"),
+    [
+        ("0.0083333", 120.0, None),
+        (".04167", 24.0, None),
+        ("2", 0.5, None),
+        ("60", 60.0, "the frame time 60 is no seconds: 60 frames a second are taken"),
+        ("29.97", 29.97, "29.97 frames a second"),
+        ("55", 55.0, "55 frames a second"),
+        ("33.3333", 30.0, "30 frames a second"),
+        ("33", 30.3, "30.3 frames a second"),
+        ("8.3333", 120.0, "120 frames a second"),
+        ("16667", 60.0, "60 frames a second"),
+        ("3.33333e-5", 30.0, "30 frames a second"),
+        ("1e-8", 100.0, "100 frames a second"),
+        ("7e-12", 30.0, "30 frames a second"),
+        ("1e7", 30.0, "30 frames a second"),
+        ("-1", 30.0, "says no frame time"),
+        ("nan", 30.0, "says no frame time"),
+    ],
+)
+def test_a_frame_time_that_is_no_seconds(written: str, rate: float, said: str | None) -> None:
+    read = parse_bvh(FIGURE.replace("0.04", written))
+    assert 1 / (read.times[1] - read.times[0]) == pytest.approx(rate, rel=2e-3)
+    notes = [note for note in read.notes if "frame" in note]
+    if said is None:
+        assert notes == []
+    else:
+        assert [said in note for note in notes] == [True]
+
+
+def test_units_of_length() -> None:
+    """Each is the likeliest for some figure; each can be said."""
+    for unit, metre in {"m": 1, "cm": 0.01, "inch": 0.0254, "mm": 0.001, "dm": 0.1}.items():
+        scale = 1.6 / (160 * metre)
+        places = parse_bvh(scaled(FIGURE, scale)).frames()[0]
+        assert np.ptp(places[0, :, 1]) == pytest.approx(1.5, abs=1e-3), unit
+    for unit, metre in UNITS_M.items():
+        read = parse_bvh(FIGURE, unit)
+        assert read.skeleton.offsets[2, 1] == pytest.approx(20 * metre)
+        assert read.tips[2][1] == pytest.approx(10 * metre)
+        assert read.notes == ()
+    assert UNITS_M == {"m": 1, "cm": 0.01, "inch": 0.0254, "mm": 0.001, "dm": 0.1, "foot": 0.3048}
+
+
+def scaled(text: str, factor: float) -> str:
+    """The figure with other lengths, in the hierarchy and in its positions."""
+    head, motion = text.split("MOTION")
+    head = re.sub(
+        r"OFFSET (\S+) (\S+) (\S+)",
+        lambda m: "OFFSET " + " ".join(f"{factor * float(x):.6f}" for x in m.groups()),
+        head,
+    )
+    rows = motion.strip().split("\n")
+    for i, row in enumerate(rows[2:], 2):
+        values = [float(x) for x in row.split()]
+        for c in (3, 4, 5, 7, 8, 9):
+            values[c] *= factor
+        rows[i] = " ".join(f"{x:.6f}" for x in values)
+    return head + "MOTION\n" + "\n".join(rows) + "\n"
+
+
+def test_the_figure_of_the_thesis_is_read_as_it_is_printed() -> None:
+    """Gürel 2010, figure B.1: one brace too many, and its first frame lacks a value."""
+    three = "CHANNELS 3 Zrotation Xrotation Yrotation"
+    arm = (
+        "JOINT {0}Arm {{ OFFSET {1}5.00 2.00 1.00 {2} JOINT {0}Hand {{ OFFSET 0.00 -8.00 0.00 {2} "
+        "End Site {{ OFFSET 0.00 -6.00 0.00 }} }} }} "
+    )
+    second = "0 0 0 0 5 0 -5 0 5 45 0 0 -90 0 0 0 -15 0 0 -135 0"
+    text = (
+        "HIERARCHY ROOT Hips { OFFSET 0 0 0 CHANNELS 6 Xposition Yposition Zposition Zrotation "
+        f"Xrotation Yrotation JOINT Chest {{ OFFSET 0 8 0 {three} {arm.format('Left', '', three)}}}"
+        f" {arm.format('Right', '-', three)}}} }}\nMOTION\nFrames: 2\nFrame Time: 0.05\n"
+        + " ".join(["0.00"] * 20) + "\n" + second + "\n"
+    )  # fmt: skip
+    read = parse_bvh(text, "cm")
+    brace, short = read.notes
+    assert brace == "line 1: a `}` without its `{` is left out"
+    assert short.startswith("line 5: a frame has 20 of 21 values: those that lack are taken from")
+    np.testing.assert_allclose(read.rotations[0], np.tile([1.0, 0, 0, 0], (6, 1)), atol=1e-12)
+    turned = {name: read.rotations[1, j] for j, name in enumerate(read.skeleton.names)}
+    half = np.radians(45) / 2
+    np.testing.assert_allclose(turned["LeftArm"], [np.cos(half), 0, 0, np.sin(half)], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("rows", "values", "notes"),
+    [
+        (["1 2 3", "4 5", "7 8 9"], [[1, 2, 3], [4, 5, 3], [7, 8, 9]], ["2 of 3 values: those"]),
+        (["1 2 3", "4 5 6 0", "7 8 9"], [[1, 2, 3], [4, 5, 6], [7, 8, 9]], ["4 of 3 values: what"]),
+        (["1 2 3", "4 5 6", "7"], [[1, 2, 3], [4, 5, 6]], ["the last frame has 1 of 3"]),
+        (["1 2", "3 4", "5 6"], [[1, 2, 3], [4, 5, 6]], []),
+        (["1 2 3 4 5 6", "7 8 9"], [[1, 2, 3], [4, 5, 6], [7, 8, 9]], []),
+        (
+            ["9", "1 2 3", "", "4 5", "4 5 6", "7 8 9", "0 0 0"],
+            [[9, 2, 3], [1, 2, 3], [4, 5, 3], [4, 5, 6], [7, 8, 9], [0, 0, 0]],
+            ["line 1: a frame has 1 of 3 values, as 1 further frames"],
+        ),
+    ],
+)
+def test_no_line_lends_another_its_values(
+    rows: list[str], values: list[list[float]], notes: list[str]
+) -> None:
+    said: list[str] = []
+    head = f"Frame Time: 0.04 Frames: {len(values)}\n"
+    _, found = read_motion(head + "\n".join(rows), 0, 3, said)
+    assert found.tolist() == values
+    assert len(said) == len(notes)
+    assert all(part in note for part, note in zip(notes, said, strict=True))
+
+
+def test_joints_of_one_name_are_told_apart() -> None:
+    text = FIGURE.replace("JOINT Hand", "JOINT Hips")
+    read = parse_bvh(text)
+    assert read.skeleton.names == ("Hips", "Bip01 Spine", "Hips_2")
+    assert "2 joints are called `Hips`" in read.notes[0]
+    text = text.replace("ROOT Hips", "ROOT Hips_2").replace("Bip01 Spine", "Hips")
+    assert parse_bvh(text).skeleton.names == ("Hips_2", "Hips", "Hips_3")

@@ -11,15 +11,17 @@ itself, then close to the smoothed result, so that free coordinates do not jump.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.clip import Clip
+from azee.clip.digits import DIGITS, SIDES, DigitFit
 from azee.clip.finite import LEAST_STEP_S
-from azee.clip.retarget_source import SIDES, Measured
+from azee.clip.retarget_source import Measured
 from azee_rig.chain import Chain, Frames
 from azee_rig.rig import Rig
 from azee_rig.rotation import rotation_vectors
@@ -37,8 +39,8 @@ WRIST_M, PALM_RAD, ELBOW_M, WISH_RAD = 0.004, np.radians(1.0), 0.15, np.radians(
 HASTE_RAD = np.radians(1.0)
 """A turn from one frame to the next that weighs as much, where there is a choice of ways."""
 PRONATION = ARM.index("f_arm_{S}.pronation")
-KEPT_SHARE, KEPT_OFF_RAD = 0.03, np.radians(5.0)
-"""Up to here, in arm lengths and radians, hands count as where they were."""
+KEPT_SHARE, KEPT_OFF_RAD, KEPT_TIP_M = 0.03, np.radians(5.0), 0.003
+"""Up to here, in arm lengths, radians and metres, hands and fingers count as where they were."""
 SWEEPS, STEP_RAD = 40, 1e-6
 FASTEST_RAD_S = 25.0
 """Faster turns, 1,430°/s, are jumps: about the largest measured of an elbow (docs/motion.md)."""
@@ -51,14 +53,56 @@ class Retargeted:
     """A clip on the new body, and the remaining errors, per frame and side (L, R).
 
     wrist_m: (T, 2) metres off on the new body. palm_rad: (T, 2) turn of the palm that is off.
+    tip_m: by digit, such as `thumb_L`, (T,) metres that its tip is off in the palm's frame.
     """
 
     clip: Clip
     wrist_m: Floats
     palm_rad: Floats
+    tip_m: Mapping[str, Floats]
 
     def kept(self, body: Rig) -> str:
-        """Tell in how many frames hands are where they were, and how far they are off in others."""
+        """Tell in how many frames hands are where they were, and how far hands and fingers are off.
+
+        Args: body: the new one.
+        """
+        return f"{self._hands_kept(body)}; {self._fingers_kept()}"
+
+    def _fingers_kept(self) -> str:
+        if not self.tip_m:
+            return "no finger is carried over"
+        worst: dict[str, float] = {}
+        for name, off in self.tip_m.items():
+            digit = name.split("_")[0]
+            worst[digit] = max(worst.get(digit, 0.0), 1e3 * float(off.max()))
+        if max(worst.values()) <= 1e3 * KEPT_TIP_M:
+            return (
+                f"finger tips are within {1e3 * KEPT_TIP_M:.0f} mm of where they were in the palm"
+            )
+        each = ", ".join(f"{digit} {most:.0f} mm" for digit, most in worst.items())
+        return f"finger tips are off in the palm by up to: {each}"
+
+    def report(self, body: Rig) -> dict[str, Any]:
+        """Return how far hands and digits are off, as docs/formats.md describes it."""
+
+        def spread(values: Floats) -> dict[str, float]:
+            return {"mean": float(values.mean()), "max": float(values.max())}
+
+        return {
+            "rig": body.name,
+            "frames": len(self.clip.times),
+            "arm_m": body.landmarks.arm_m,
+            "hands": {
+                side: {
+                    "wrist_m": spread(self.wrist_m[:, s]),
+                    "palm_rad": spread(self.palm_rad[:, s]),
+                }
+                for s, side in enumerate(SIDES)
+            },
+            "digits": {name: {"tip_m": spread(off)} for name, off in self.tip_m.items()},
+        }
+
+    def _hands_kept(self, body: Rig) -> str:
         share = self.wrist_m / body.landmarks.arm_m
         off = (share > KEPT_SHARE) | (self.palm_rad > KEPT_OFF_RAD)
         frames = int(off.any(axis=1).sum())
@@ -71,6 +115,13 @@ class Retargeted:
         )
 
 
+def as_it_was(clip: Clip) -> Retargeted:
+    """Return a clip of the body's own, of which nothing has to be carried over."""
+    frames = len(clip.times)
+    tips = {f"{digit}_{side}": np.zeros(frames) for side in SIDES for digit in DIGITS}
+    return Retargeted(clip, np.zeros((frames, 2)), np.zeros((frames, 2)), tips)
+
+
 def retarget(source: Measured, rig: Rig) -> Retargeted:
     """Play measured motion on a body."""
     q = np.tile(rig.coordinates.idle, (len(source.times), 1))
@@ -78,18 +129,25 @@ def retarget(source: Measured, rig: Rig) -> Retargeted:
         if name in rig.coordinates.index:
             q[:, rig.coordinates.index[name]] = values
     q = np.clip(q, rig.coordinates.lower, rig.coordinates.upper)
+    tips: dict[str, Floats] = {}
+    for digit in source.digits:
+        hand = DigitFit(rig, digit.name)
+        if hand.exists:
+            columns = [rig.coordinates.index[name] for name in hand.coordinates]
+            q[:, columns], tips[digit.name] = hand.angles(digit)
     fit = _Arms(rig, source, q)
     first = fit.solved(q, q)
-    wish = smoothed(first, source.times)
+    wish = q.copy()  # arms alone are smoothed: what moves the trunk and the fingers is known
+    arms = fit.columns.ravel()
+    wish[:, arms] = smoothed(first[:, arms], source.times)
     found = fit.steadiest([fit.solved(start, wish) for start in fit.starts(wish)], wish)
-    for columns in fit.columns:
-        found[:, columns] = eased(found[:, columns], source.times)
+    found[:, arms] = eased(found[:, arms], source.times)
     wrist, palm = fit.off(found)
     names, weights = source.units
     known = [i for i, name in enumerate(names) if name in rig.units]
     units = tuple(names[i] for i in known)
     clip = Clip(source.times, found, units, weights[:, known], source.labels)
-    return Retargeted(clip, wrist, palm)
+    return Retargeted(clip, wrist, palm, tips)
 
 
 class _Arms:

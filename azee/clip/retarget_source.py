@@ -1,20 +1,23 @@
 """What retargeting keeps of a motion, measured on its source in the frame of the chest.
 
-The frame has the columns left, up, forward; its origin is the middle of the shoulders. Hands and
-fingers are read off the places of joints, so that neither the source's axes nor its rest posture
-matter. How trunk and head turn is counted from the rest posture, if a figure stands there, else
-from the first frame.
+The frame has the columns left, up, forward; its origin is the middle of the shoulders. Hands are
+read off the places of joints, so that neither the source's axes nor its rest posture matter;
+`azee.clip.digit_source` measures the fingers. How trunk and head turn is counted from the rest
+posture, if a figure stands there, else from the first frame.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.clip import Clip, Label
+from azee.clip.digit_source import DigitJoints, joints_of, measure_digit
+from azee.clip.digits import DIGITS, FINGERS, SIDES, Digit, DigitFit
 from azee.clip.finite import check_numbers, check_times
 from azee.clip.recording import Recording
 from azee_rig.importing.bone_map import BoneMap
@@ -25,14 +28,14 @@ from azee_rig.rotation import rotation_vectors
 
 Floats = NDArray[np.float64]
 
-SIDES = ("L", "R")
-FINGERS = ("index", "middle", "ring", "little")
 BACK_SHARE = {"back_1": 0.45, "back_2": 0.55}
 HEAD_SHARE = {"neck": 0.5, "head": 0.5}
 """How the turns of trunk and head are shared."""
 LEAST_SHARE, LEAST_M = 0.05, 1e-4
 """A part of the body that is shorter than this share of the longest segment of the arms has no
 length, nor has one that is shorter than this."""
+ALIKE = 0.8
+"""Share of one side's length that the other's has, if joints of both were read alike."""
 UPRIGHT_DEG = 20.0
 """A figure that leans less stands straight along an axis of its file."""
 TURNS = {"flexion": (0, 1.0), "axial": (1, 1.0), "lateral": (2, -1.0)}
@@ -49,8 +52,8 @@ class Measured:
 
     arm_m: length of the arms. wrists, elbows: (T, 2, 3) metres from the middle of the shoulders,
     in the chest's frame. palms: (T, 2, 3, 3) columns x, dir, nrm of the palms there. coordinates:
-    by name, (T,) radians: fingers, trunk, head. units: names and weights (T, M) of face units.
-    notes: what was guessed or left out.
+    by name, (T,) radians: trunk, head, eyes. digits: those that have joints to bend. units: names
+    and weights (T, M) of face units. notes: what was guessed or left out.
 
     Raises: ValueError: the arms have no length, or a number is none.
     """
@@ -61,6 +64,7 @@ class Measured:
     elbows: Floats
     palms: Floats
     coordinates: Mapping[str, Floats]
+    digits: tuple[Digit, ...]
     units: tuple[tuple[str, ...], Floats]
     labels: tuple[Label, ...] = ()
     notes: tuple[str, ...] = field(default=())
@@ -90,7 +94,20 @@ def measure_clip(clip: Clip, rig: Rig) -> Measured:
         return np.asarray(np.einsum("tba,tsb->tsa", R, at.positions[:, nodes] - origin[:, None]))
 
     palms = at.rotations[:, [rig.bones[f"palm_{s}"].node for s in SIDES]]
-    arms = ("clav", "arm", "f_arm", "palm")
+    elsewhere = ("clav", "arm", "f_arm", "palm", *DIGITS)
+    digits = [
+        Digit(
+            f"{digit}_{side}",
+            np.einsum(
+                "tba,tnbc->tnac",
+                palms[:, s],
+                at.rotations[:, [rig.bones[f"{digit}_{side}_{k}"].node for k in (1, 2, 3)]],
+            ),
+        )
+        for s, side in enumerate(SIDES)
+        for digit in DIGITS
+        if DigitFit(rig, f"{digit}_{side}").exists
+    ]
     return Measured(
         times=clip.times,
         arm_m=rig.landmarks.arm_m,
@@ -100,8 +117,9 @@ def measure_clip(clip: Clip, rig: Rig) -> Measured:
         coordinates={
             name: clip.coordinates[:, i]
             for i, name in enumerate(c.names)
-            if not name.startswith(arms)
+            if not name.startswith(elsewhere)
         },
+        digits=tuple(digits),
         units=(clip.units, clip.unit_weights),
         labels=clip.labels,
     )
@@ -132,6 +150,8 @@ class _Reader:
         self.recording, self.bones, self.places, self.turned = recording, bones, places, turned
         self.index = {name: j for j, name in enumerate(recording.skeleton.names)}
         self.notes = [*recording.notes]
+        self.bare: list[str] = []
+        """Sides on which no fingers tell how the palm is turned."""
         self._check_lengths()
         upright = self._upright()
         self.still = recording.skeleton.rest_positions if upright else places[0]
@@ -153,6 +173,13 @@ class _Reader:
             for side in SIDES
             for part, (above, below) in ends.items()
         }
+        for part in ends:
+            left, right = (lengths[f"{part} {side}"] for side in SIDES)
+            if min(left, right) < ALIKE * max(left, right):
+                self.notes.append(
+                    f"{part}s are {100 * left:.0f} cm (L) and {100 * right:.0f} cm (R) long: "
+                    "joints may be misread"
+                )
         longest = max(lengths.values())
         lengths["line of the shoulders"] = self._apart("arm_L", "arm_R")
         lengths["way from the hips to the head"] = float(
@@ -182,6 +209,11 @@ class _Reader:
             return np.asarray(np.einsum("tba,tsb->tsa", chest, points - middle[:, None]))
 
         palms = np.stack([self._palm(s) for s in SIDES], axis=1)
+        if self.bare:
+            self.notes.append(
+                f"no fingers ({', '.join(self.bare)}): palms are taken to face inward where the "
+                "arm hangs, and down where it is held out"
+            )
         self.notes.append("where the body goes and how its legs move is left out")
         return Measured(
             times=self.recording.times,
@@ -189,7 +221,8 @@ class _Reader:
             wrists=seen(wrists),
             elbows=seen(elbows),
             palms=np.einsum("tba,tsbc->tsac", chest, palms),
-            coordinates=self._trunk() | self._hands(palms),
+            coordinates=self._trunk(),
+            digits=self._digits(palms),
             units=((), np.zeros((len(middle), 0))),
             notes=tuple(self.notes),
         )
@@ -225,12 +258,11 @@ class _Reader:
             middle = f"middle_{side}_1"
             tip = self.at(middle) if middle in there else np.mean([self.at(b) for b in there], 0)
             across = sign * (self.at(there[-1]) - self.at(there[0]))
-            along = _unit(tip - wrist)
-            return _frames(along, np.cross(across, along))
-        self.notes.append(
-            f"no fingers on side {side}: its palm is taken to face inward where the arm hangs, and "
-            "down where it is held out"
-        )
+            normal = np.cross(across, tip - wrist)
+            square = np.linalg.norm(tip - wrist, axis=-1) ** 2
+            if (np.linalg.norm(normal, axis=-1) > LEAST_SHARE * square).all():
+                return _frames(_unit(tip - wrist), normal)
+        self.bare.append(side)
         hand, elbow = self._joint(f"palm_{side}"), self._joint(f"f_arm_{side}")
         along = _unit(self.still[hand] - self.still[elbow])
         x, y, _ = np.abs(self.axes.T @ along)
@@ -264,70 +296,54 @@ class _Reader:
     def _joint(self, bone: str) -> int:
         return self.index[self.bones.bones[bone][0]]
 
-    def _hands(self, palms: Floats) -> dict[str, Floats]:
-        """Angles of the fingers, from the directions of their bones in the palm."""
-        found: dict[str, Floats] = {}
+    def _digits(self, palms: Floats) -> tuple[Digit, ...]:
+        """Fingers and thumbs that have joints enough to bend."""
+        found: list[Digit] = []
+        still, shared = [], []
         for s, side in enumerate(SIDES):
-            sign = 1.0 if side == "L" else -1.0
-            for digit in FINGERS:
-                ends = self._ends(digit, side)
-                if ends is None:
+            for digit in DIGITS:
+                joints = self._digit_joints(digit, side)
+                if joints is None or not joints.whole:
+                    still.append(f"{digit} {side}")
                     continue
-                ways = np.einsum("tba,tkb->tka", palms[:, s], np.diff(ends, axis=1))
-                spread = np.arctan2(-ways[:, 0, 0], np.hypot(ways[:, 0, 1], ways[:, 0, 2]))
-                bends = np.arctan2(ways[..., 2], ways[..., 1])
-                bend = np.diff(np.unwrap(bends, axis=1), axis=1, prepend=0.0)
-                found[f"{digit}_{side}_1.deviation"] = sign * spread
-                for k in range(3):
-                    found[f"{digit}_{side}_{k + 1}.flexion"] = bend[:, k]
-            thumb = self._ends("thumb", side)
-            if thumb is not None:
-                found |= _thumb(
-                    np.einsum("tba,tkb->tka", palms[:, s], np.diff(thumb, axis=1)), side
-                )
-        return found
+                if len(joints.ways) == 2:
+                    shared.append(joints.name)
+                found.append(measure_digit(joints, palms[:, s]))
+        if still and found:
+            self.notes.append(f"without joints to bend, and left at rest: {', '.join(still)}")
+        if shared:
+            self.notes.append(
+                f"{len(shared)} digits have two joints: what the second bends is shared by two"
+            )
+        return tuple(found)
 
-    def _ends(self, digit: str, side: str) -> Floats | None:
-        """Places of a digit's joints and its tip, (T, 4, 3); None where joints are missing."""
-        names = [self.bones.bones.get(f"{digit}_{side}_{k}") for k in (1, 2, 3)]
-        joints = [self.index[chain[0]] for chain in names if chain]
-        if len(joints) < 3:
+    def _digit_joints(self, digit: str, side: str) -> DigitJoints | None:
+        joints = joints_of(digit, side, self.bones.bones, self.index)
+        if not joints:
             return None
-        last = joints[-1]
-        below = [j for j, p in enumerate(self.recording.skeleton.parents) if p == last]
-        if below:
-            tip = self.places[:, below[0]]
-        elif last in self.recording.tips:
-            tip = self.places[:, last] + self.turned[:, last] @ self.recording.tips[last]
-        else:
-            tip = 2.0 * self.places[:, last] - self.places[:, joints[-2]]
-        if np.linalg.norm(tip - self.places[:, last], axis=-1).min() < 1e-4:
-            tip = 2.0 * self.places[:, last] - self.places[:, joints[-2]]
-        return np.stack([*(self.places[:, j] for j in joints), tip], axis=1)
+        places = np.median(self.recording.translations, axis=0)
+        ways = [
+            # Bones between two of a digit's joints, such as twist bones, are taken as straight.
+            sum((places[j] for j in self._between(above, below)), np.zeros(3))
+            for above, below in pairwise(joints)
+        ]
+        return DigitJoints(
+            f"{digit}_{side}", self.turned[:, joints], np.array([*ways, self._end(joints[-1])])
+        )
 
+    def _between(self, above: int, below: int) -> list[int]:
+        """Joints on the way down from one to another, the last among them."""
+        path, parents = [below], self.recording.skeleton.parents
+        while parents[path[-1]] not in (above, -1):
+            path.append(int(parents[path[-1]]))
+        return path
 
-def _thumb(ways: Floats, side: str) -> dict[str, Floats]:
-    """Angles of a thumb from the directions of its bones in the palm's frame, (T, 3, 3).
-
-    Its first bone's frame at zero has the columns (−s nrm, dir, s x) of the palm, s the side's
-    sign; flexion about x, then abduction about nrm put its direction there. How the pad rolls no
-    place of a joint tells; it keeps what it is at idle.
-    """
-    sign = 1.0 if side == "L" else -1.0
-    zero = np.array([[0.0, 0.0, -sign], [0.0, 1.0, 0.0], [sign, 0.0, 0.0]])
-    first = _unit(ways[:, 0]) @ zero.T
-    flexion = np.arctan2(first[:, 2], first[:, 1])
-    abduction = sign * np.arcsin(np.clip(-first[:, 0], -1.0, 1.0))
-    bends = [
-        np.arccos(np.clip((_unit(ways[:, k]) * _unit(ways[:, k + 1])).sum(axis=-1), -1.0, 1.0))
-        for k in (0, 1)
-    ]
-    return {
-        f"thumb_{side}_1.flexion": flexion,
-        f"thumb_{side}_1.abduction": abduction,
-        f"thumb_{side}_2.flexion": bends[0],
-        f"thumb_{side}_3.flexion": bends[1],
-    }
+    def _end(self, joint: int) -> Floats:
+        """Where a last bone ends, (3,) in its joint's axes; zero where nothing tells."""
+        below = np.flatnonzero(self.recording.skeleton.parents == joint)
+        if len(below):
+            return np.asarray(np.median(self.recording.translations[:, below[0]], axis=0))
+        return np.asarray(self.recording.tips.get(joint, np.zeros(3)))
 
 
 def _unit(v: Floats) -> Floats:

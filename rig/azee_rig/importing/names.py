@@ -28,7 +28,14 @@ _NOT_BONES = _words(
     jaw lip tongue teeth hair breast bust skirt cloth ear cheek nose chin mouth"""
 )
 _FILLERS = _words("finger fingers f proximal intermediate distal prox inter dist")
-_METACARPAL = _words("metacarpal meta carpal inhand palm metacarpals")
+_METACARPAL = _words("metacarpal meta carpal inhand palm metacarpals mc cmc")
+_ORDINALS = {
+    "first": "thumb", "second": "index", "third": "middle", "fourth": "ring", "fifth": "little"
+}  # fmt: skip
+_SEGMENTS = _words("mc pp mp dp cmc mcp pip dip tip")
+"""What stands beside an ordinal where it counts fingers, as in Xsens' `LeftSecondPP`."""
+_UPPER, _FORE = re.compile(r"(?<![A-Za-z])([LR])UArm"), re.compile(r"(?<![A-Za-z])([LR])FArm")
+"""OptiTrack Motive's arms; `LF` is elsewhere a left side."""
 DIGITS = {
     "thumb": "thumb",
     "index": "index",
@@ -45,7 +52,7 @@ DIGITS = {
 KINDS = {
     "pelvis": "pelvis hips hip cog hipscontrol",
     "spine": """spine chest upperchest lowerchest torso lowerback upperback lowback back abdomen
-        waist thorax ribcage ribs stomach spinelower spineupper spinemid belly""",
+        waist thorax ribcage ribs stomach ab spinelower spineupper spinemid belly""",
     "neck": "neck lowerneck upperneck necklower neckupper",
     "head": "head skull",
     "clav": "clavicle collar collarbone clav scapula",
@@ -81,7 +88,8 @@ class Reading:
 
 def read_name(name: str) -> Reading:
     """Read the name of a joint."""
-    words = [w.lower() for w in _WORD.findall(re.split(r"[:|/]", name)[-1])]
+    name = _FORE.sub(r"\1 ForeArm", _UPPER.sub(r"\1 UpperArm", re.split(r"[:|/]", name)[-1]))
+    words = [w.lower() for w in _WORD.findall(name)]
     words = [part for word in words for part in _split(word)]
     sides = [_SIDES[w] for w in words if w in _SIDES]
     side = sides[0] if sides else ""
@@ -94,6 +102,8 @@ def read_name(name: str) -> Reading:
     twist = any(w in _TWISTS for w in plain)
     plain = [w for w in plain if w not in _ENDS and w not in _TWISTS]
     digit = next((DIGITS[w] for w in plain if w in DIGITS), "")
+    if not digit and _SEGMENTS & set(words):
+        digit = next((_ORDINALS[w] for w in plain if w in _ORDINALS), "")
     if digit and not any(w in ("toe", "foot") for w in plain):
         inside = bool(set(plain) & _METACARPAL) or "in" in plain
         return Reading("digit", side, digit, end, twist, inside)

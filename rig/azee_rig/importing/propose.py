@@ -20,6 +20,8 @@ BACK_2_AT = 0.38
 """Part of the way from the lowest joint of the spine to the neck from which it is back_2."""
 METACARPAL_AT = 0.45
 """A joint that is nearer to the wrist than this share of its child's distance lies in the palm."""
+ONE_PLACE = 1e-3
+"""Joints that are nearer, as a share of their distance from the wrist, are in one place."""
 FINGERS = DIGITS[1:]
 
 
@@ -257,6 +259,8 @@ def _digits(
         chain = [j for j in tree.path(max(chain, key=lambda j: int(tree.depth[j]))) if j in chain]
         ends = [j for j in chain if readings[j].end]
         chain = [j for j in chain if not readings[j].end]
+        while len(chain) > 3 and _connects(tree, readings, inside, chain[0]):
+            chain = chain[1:]
         if digit in FINGERS:
             chain = _without_metacarpal(tree, readings, hand, chain)
         if len(chain) > 3 and (chain[-1] in bare or len(chain) == 4):
@@ -269,6 +273,13 @@ def _digits(
         end = ends or [c for c in tree.children[chain[-1]] if not tree.children[c]]
         if end:
             tips[f"{digit}_{side}"] = tree.names[end[0]]
+
+
+def _connects(tree: Tree, readings: Sequence[Reading], inside: Sequence[int], joint: int) -> bool:
+    """Whether a joint only hands a digit on: two other digits have a joint in the same place."""
+    near = ONE_PLACE * tree.apart(inside[0], joint)
+    there = {readings[j].digit for j in inside if tree.apart(j, joint) <= near}
+    return len(there - {"", readings[joint].digit}) >= 2
 
 
 def _phalanges(digit: str, count: int) -> tuple[int, ...]:

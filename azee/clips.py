@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +15,7 @@ from azee_grammar.diagnostic import AZeeError, Diagnostic
 if TYPE_CHECKING:
     from azee.clip.clip import Clip
     from azee.clip.recording import Recording
+    from azee.clip.retarget import Retargeted
     from azee_rig.rig import Rig
 
 CLIP_SUFFIXES = (".npz", ".bvh")
@@ -38,10 +41,54 @@ def open_clip(path: str | Path, rig: Rig | None = None) -> OpenClip:
     Raises: AZeeError: cannot-read, not-a-clip. RigError: the body cannot be read.
     """
     path = Path(path)
-    try:
-        if path.suffix.lower() == ".bvh":
+    with reading(path):
+        if _is_bvh(path):
             return _recorded(path, rig)
         return _stored(path, rig)
+
+
+def open_recording(path: str | Path, unit: str | None = None) -> Recording | None:
+    """Read a BVH file as it was recorded; None where the file is a clip that `azee` stored.
+
+    Args: unit: of its lengths; by default it is guessed.
+    Raises: AZeeError: cannot-read, not-a-clip.
+    """
+    from azee.clip.bvh import read_bvh
+    from azee.clip.bvh_hierarchy import BvhError
+
+    path = Path(path)
+    with reading(path):
+        if not _is_bvh(path):
+            return None
+        try:
+            return read_bvh(path, unit)
+        except BvhError as error:
+            raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
+
+
+def _is_bvh(path: Path) -> bool:
+    """Whether a file is BVH rather than a clip. Raises: OSError. AZeeError: it is neither."""
+    from azee.clip.file_kind import motion_kind
+
+    kind = motion_kind(path)
+    if kind in ("bvh", "clip", ""):
+        return kind == "bvh"
+    raise AZeeError(
+        _no_clip(
+            f"`{path}` is {kind}; motion is read from BVH of any skeleton and from clips (.npz)",
+            "export it as BVH: Blender does, with File > Export > Motion Capture",
+        )
+    )
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Turn what goes wrong while a file is read into a diagnostic.
+
+    Raises: AZeeError: cannot-read.
+    """
+    try:
+        yield
     except OSError as error:
         raise AZeeError(_unreadable(path, error)) from error
 
@@ -85,41 +132,71 @@ def _shipped(path: Path, name: str) -> str:
 
 
 def _recorded(path: Path, rig: Rig | None) -> OpenClip:
-    from azee.clip.bvh import read_bvh
-    from azee.clip.bvh_hierarchy import BvhError
-    from azee.clip.own_bvh import LOST_RAD, is_own, own_clip
     from azee_rig.load import load_rig
 
-    try:
-        recording = read_bvh(path, OUR_UNIT)
-        body = rig or load_rig(SHIPPED)
-        if not is_own(recording, body):
-            recording = read_bvh(path)  # somebody scaled it, and then it says so
-    except BvhError as error:
-        raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
+    body = rig or load_rig(SHIPPED)
+    recording = open_recording(path, OUR_UNIT)
+    assert recording is not None
+    if own := _own(recording, body):
+        return replace(own, notes=(*recording.notes, *own.notes))
+    made, notes = carry_over(path, body)
+    note = f"another skeleton's motion, carried over to `{body.name}`: {made.kept(body)}"
+    return OpenClip(made.clip, body, (*notes, note))
+
+
+def carry_over(
+    path: str | Path, body: Rig, unit: str | None = None
+) -> tuple[Retargeted, list[str]]:
+    """Play the motion of a BVH of any skeleton, or of any clip, on a body.
+
+    Returns: the motion, and what its user should know about how it was read.
+    Raises: AZeeError: cannot-read, not-a-clip.
+    """
+    from azee.clip.retarget import as_it_was, retarget
+    from azee.clip.retarget_source import RetargetError, measure_clip, measure_recording
+
+    recording = open_recording(path, unit)
+    opened = open_clip(path) if recording is None else _of_any_body(recording, body)
+    if opened is None:
+        assert recording is not None
+        try:
+            source = measure_recording(recording)
+        except RetargetError as error:
+            raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
+        return retarget(source, body), [*source.notes]
+    notes = [*opened.notes]
+    if recording is not None:
+        named = open_recording(path, OUR_UNIT)  # of its own skeleton the unit needs no guess
+        notes = [*(named.notes if named else ()), *notes]
+        if opened.rig is body:
+            notes.append("it is the body's own skeleton: all joints are as they were")
+            return as_it_was(opened.clip), notes
+    return retarget(measure_clip(opened.clip, opened.rig), body), notes
+
+
+def _of_any_body(recording: Recording, body: Rig) -> OpenClip | None:
+    """Return a recording of the skeleton of a body, or of one that ships, as a clip of it."""
+    from azee_rig.load import load_rig, shipped_rigs
+
+    if own := _own(recording, body):
+        return own
+    others = (load_rig(name) for name in shipped_rigs() if name != body.name)
+    return next((own for rig in others if (own := _own(recording, rig))), None)
+
+
+def _own(recording: Recording, body: Rig) -> OpenClip | None:
+    """Return a recording of a body's own skeleton as a clip; None if it is one of another."""
+    from azee.clip.own_bvh import LOST_RAD, is_own, own_clip
+
     if not is_own(recording, body):
-        return _carried_over(path, recording, body)
+        return None
     clip, lost_rad = own_clip(recording, body)
-    notes = list(recording.notes)
+    notes = []
     if lost_rad > LOST_RAD:
         notes.append(
             f"the body cannot do all of it: joints are up to {math.degrees(lost_rad):.1f}° off"
         )
     return OpenClip(clip, body, tuple(notes))
-
-
-def _carried_over(path: Path, recording: Recording, body: Rig) -> OpenClip:
-    """Play the motion of another skeleton on a body. Raises: AZeeError: not-a-clip."""
-    from azee.clip.retarget import retarget
-    from azee.clip.retarget_source import RetargetError, measure_recording
-
-    try:
-        source = measure_recording(recording)
-    except RetargetError as error:
-        raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
-    made = retarget(source, body)
-    note = f"another skeleton's motion, carried over to `{body.name}`: {made.kept(body)}"
-    return OpenClip(made.clip, body, (*source.notes, note))
 
 
 def _no_clip(message: str, remedy: str | None = None) -> Diagnostic:

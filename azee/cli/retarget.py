@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from azee.cli.body import load_body
 from azee.cli.console import DONE, news, working
 from azee.cli.outputs import check_outputs, size_of, with_suffix
-from azee.formats import CLIP_WRITERS
-from azee_grammar.diagnostic import AZeeError, Diagnostic
-
-if TYPE_CHECKING:
-    from azee.clip.retarget_source import Measured
+from azee.formats import CLIP_WRITERS, writing
 
 UNITS = ("m", "cm", "inch", "mm", "dm", "foot")
 
@@ -38,45 +34,42 @@ UNITS = ("m", "cm", "inch", "mm", "dm", "foot")
 @click.option(
     "--unit", type=click.Choice(UNITS), help="Of a BVH's lengths; by default it is guessed."
 )
+@click.option(
+    "--report",
+    metavar="R.json",
+    type=click.Path(path_type=Path),
+    callback=with_suffix(".json"),
+    help="Write how far hands and each finger are off.",
+)
 @click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
-def retarget(file: Path, outputs: Sequence[Path], rig: str, unit: str | None, quiet: bool) -> int:
+def retarget(
+    file: Path,
+    outputs: Sequence[Path],
+    rig: str,
+    unit: str | None,
+    report: Path | None,
+    quiet: bool,
+) -> int:
     """Play the motion of FILE, a BVH of any skeleton with arms or a clip (.npz), on a body.
 
     Kept are: where the hands are from the middle of the shoulders, in arm lengths, how the palms
     are turned, how fingers bend, how trunk and head turn. Legs and the way of the body are not.
     """
-    from azee.clip.retarget import retarget as on_other_body
-    from azee.clips import save_clip
+    from azee.clips import carry_over, save_clip
+    from azee.export.files import replace_file
 
-    check_outputs(outputs)
+    check_outputs([*outputs, *([report] if report else [])])
     body = load_body(rig)
-    source = _measured(file, unit)
     with working("Retargeting …", quiet=quiet):
-        made = on_other_body(source, body)
+        made, notes = carry_over(file, body, unit)
     for path in outputs:
         save_clip(made.clip, body, path)
-    lines = [*source.notes, made.kept(body)]
-    lines += [f"wrote {path} ({size_of(path)})" for path in outputs]
+    if report is not None:
+        text = json.dumps(made.report(body), indent=2, ensure_ascii=False, allow_nan=False)
+        with writing(report), replace_file(report) as to:
+            to.write(f"{text}\n".encode())
+    written = [*outputs, *([report] if report else [])]
+    lines = [*notes, made.kept(body)]
+    lines += [f"wrote {path} ({size_of(path)})" for path in written]
     news("\n".join(lines), quiet=quiet)
     return DONE
-
-
-def _measured(file: Path, unit: str | None) -> Measured:
-    """Read and measure. Raises: AZeeError: cannot-read, not-a-clip."""
-    from azee.clip.bvh import read_bvh
-    from azee.clip.bvh_hierarchy import BvhError
-    from azee.clip.retarget_source import RetargetError, measure_clip, measure_recording
-    from azee.clips import open_clip
-
-    if file.suffix.lower() != ".bvh":
-        opened = open_clip(file)
-        return measure_clip(opened.clip, opened.rig)
-    try:
-        return measure_recording(read_bvh(file, unit))
-    except (BvhError, RetargetError) as error:
-        raise AZeeError(Diagnostic("not-a-clip", f"`{file}`: {error}", None)) from error
-    except OSError as error:
-        reason = (error.strerror or type(error).__name__).lower()
-        raise AZeeError(
-            Diagnostic("cannot-read", f"cannot read `{file}`: {reason}", None)
-        ) from error

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from formats import schema
 
 from azee.cli.main import run
 from azee.clip.bvh import parse_bvh, read_bvh
 from azee.clip.clip import Clip
 from azee.clip.retarget import retarget, smoothed
 from azee.clip.retarget_source import RetargetError, measure_clip, measure_recording
+from azee.clips import open_clip
 from azee.export.formats.bvh import write_bvh
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
@@ -180,6 +183,76 @@ def test_smoothing_is_a_matter_of_time_not_of_frames() -> None:
         wave = np.sin(2 * np.pi * times / 0.3)[:, None]
         inner = (times > 0.3) & (times < times[-1] - 0.3)
         assert np.abs(smoothed(wave, times)[inner]).max() < 0.25
-    uneven: NDArray[np.float64] = np.cumsum(rng.uniform(0.01, 0.08, 50))
+    uneven = rng.uniform(0.01, 0.08, 50).cumsum()
     assert smoothed(uneven[:, None], uneven)[0, 0] == uneven[0]
     assert smoothed(np.ones((50, 1)), uneven) == pytest.approx(np.ones((50, 1)))
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "kind"),
+    [
+        ("walk.fbx", b"Kaydara FBX Binary  \x00\x1a\x00", "FBX"),
+        ("walk.bvh", b"Kaydara FBX Binary  \x00\x1a\x00", "FBX"),
+        ("text.fbx", b"; FBX 7.3.0 project file\n", "FBX"),
+        ("body.glb", b"glTF\x02\x00\x00\x00", "glTF"),
+        ("walk.vrma", b"glTF\x02\x00\x00\x00", "a VRM animation"),
+        ("walk.gltf", b'{"asset": {"version": "2.0"}}', "glTF"),
+        ("walk.c3d", b"\x02P", "C3D"),
+        ("clip.json", b"{}", "JSON"),
+    ],
+)
+def test_what_is_no_bvh_is_named_with_a_remedy(
+    name: str, data: bytes, kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / name).write_bytes(data)
+    for command in (["retarget"], ["clip", "convert"]):
+        assert run([*command, str(tmp_path / name), "-o", str(tmp_path / "x.npz")]) == 1
+        said = capsys.readouterr().err
+        assert f"`{tmp_path / name}` is {kind}; motion is read from BVH of any skeleton" in said
+        assert "Blender does" in said
+
+
+def test_bvh_is_known_whatever_its_suffix(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name, text in (("a.txt", stick_figure(2)), ("b", "\ufeff\n" + stick_figure(2))):
+        (tmp_path / name).write_bytes(text.encode("utf-16" if name == "b" else "ascii"))
+        assert run(["retarget", str(tmp_path / name), "-o", str(tmp_path / "x.npz")]) == 0
+    (tmp_path / "c.txt").write_text("nothing of the kind", encoding="ascii")
+    capsys.readouterr()
+    assert run(["retarget", str(tmp_path / "c.txt"), "-o", str(tmp_path / "x.npz")]) == 1
+    assert "is not a clip that azee wrote" in capsys.readouterr().err
+    assert run(["retarget", str(tmp_path / "none.bvh"), "-o", str(tmp_path / "x.npz")]) == 1
+    assert "there is no file" in capsys.readouterr().err
+
+
+def test_the_report_keeps_to_its_schema(signer: Rig, clip: Clip, tmp_path: Path) -> None:
+    write_bvh(clip, signer, tmp_path / "clip.bvh")
+    text = (tmp_path / "clip.bvh").read_text(encoding="ascii").replace("JOINT finger", "JOINT f")
+    (tmp_path / "theirs.bvh").write_text(text, encoding="ascii")
+    for name, digits in (("clip", 10), ("theirs", 0)):
+        arguments = ["--report", str(tmp_path / "r.json"), "-o", str(tmp_path / "x.npz")]
+        assert run(["retarget", str(tmp_path / f"{name}.bvh"), *arguments, "--rig", "child"]) == 0
+        report = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))
+        jsonschema.validate(report, schema("retarget"))
+        assert report.keys() == schema("retarget")["properties"].keys()
+        assert len(report["digits"]) == digits
+        assert report["frames"] == FRAMES
+        assert report["hands"]["L"]["wrist_m"]["max"] < 0.03 * report["arm_m"]
+
+
+def test_bvh_of_another_body_that_ships_is_that_bodys_clip(
+    signer: Rig, clip: Clip, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Exactly: eyes and shoulders too, which no skeleton of others tells."""
+    c = signer.coordinates
+    q = np.array(clip.coordinates)
+    q[:, c.index["eye_L.yaw"]] = q[:, c.index["eye_R.yaw"]] = 0.2
+    write_bvh(Clip(clip.times, q, (), np.zeros((FRAMES, 0))), signer, tmp_path / "clip.bvh")
+    out = tmp_path / "x.npz"
+    assert run(["retarget", str(tmp_path / "clip.bvh"), "--rig", "child", "-o", str(out)]) == 0
+    assert "no usual unit" not in capsys.readouterr().err
+    made = open_clip(out)
+    assert made.rig.name == "child"
+    moved = made.clip.coordinates[:, made.rig.coordinates.index["eye_L.yaw"]]
+    assert moved == pytest.approx(0.2, abs=1e-6)

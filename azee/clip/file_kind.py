@@ -1,0 +1,38 @@
+"""What a file of motion is, by its first bytes: names may lie, and some have no suffix."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+LOOKED_AT = 4096
+"""Bytes from the start that tell."""
+OTHERS = {
+    ".fbx": "FBX", ".glb": "glTF", ".gltf": "glTF", ".vrm": "a VRM avatar",
+    ".vrma": "a VRM animation", ".c3d": "C3D", ".trc": "TRC", ".amc": "AMC", ".asf": "ASF",
+    ".dae": "COLLADA", ".usd": "USD", ".usda": "USD", ".usdc": "USD", ".usdz": "USD",
+    ".abc": "Alembic", ".blend": "a Blender file", ".vmd": "a MikuMikuDance motion",
+    ".json": "JSON", ".mp4": "a film", ".webm": "a film",
+}  # fmt: skip
+"""Formats of motion that azee does not read, by suffix."""
+
+
+def motion_kind(path: Path) -> str:
+    """Return "bvh", "clip", what else the file is in words, or "" where nothing tells.
+
+    Raises: OSError: it cannot be read.
+    """
+    with path.open("rb") as file:
+        start = file.read(LOOKED_AT)
+    if start.startswith(b"PK\x03\x04"):
+        return "clip" if path.suffix.lower() != ".usdz" else "USD"
+    if start.startswith((b"Kaydara FBX Binary", b"; FBX")):
+        return "FBX"
+    if start.startswith(b"glTF"):
+        named = OTHERS.get(path.suffix.lower(), "")
+        return named if "VRM" in named else "glTF"
+    text = start.replace(b"\0", b"").lstrip(b"\xef\xbb\xbf\xff\xfe \t\r\n")
+    if text[:9].upper() == b"HIERARCHY":
+        return "bvh"
+    if path.suffix.lower() in (".bvh", ".npz"):
+        return "bvh" if path.suffix.lower() == ".bvh" else "clip"
+    return OTHERS.get(path.suffix.lower(), "")

@@ -85,15 +85,13 @@ def measure_digit(joints: DigitJoints, palm: Floats) -> Digit:
     # Fixed in the joints' axes: F(t) = A(t) F.
     fixed = np.stack([_bone(way, axis) for way, axis in zip(ways, hinge, strict=True)])
     frames = turned @ fixed
-    directions = None if told else np.einsum("tnab,nb->tna", turned, ways)
+    directions = None if told else np.einsum("tnab,nb->tna", turned[:, :2], ways[:2])
     at_rest = float(bend(fixed[None, 0], fixed[None, 1])[0])
     if len(ways) == 2:
         return Digit(joints.name, _with_shared_bend(frames), directions)
     if np.median(np.abs(bend(frames[:, 1], frames[:, 2]))) > FOLDED_RAD:
         # Some exporters turn the last joint half round, and its end site with it.
         frames[:, 2] = frames[:, 2] @ about_axis(0, np.pi)
-        if directions is not None:
-            directions[:, 2] *= -1.0
     return Digit(joints.name, frames, directions, at_rest if blind else None)
 
 

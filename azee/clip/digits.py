@@ -45,8 +45,8 @@ STRAIGHT_RAD = np.radians(3.0)
 class Digit:
     """How a digit's three bones stand in the palm of its hand, in T frames.
 
-    frames: (T, 3, 3, 3) frames of the bones in the palm's. ways: (T, 3, 3) unit directions of the
-    bones, a row each, of a thumb of which nothing tells how it is rolled, so that its frames are a
+    frames: (T, 3, 3, 3) frames of the bones in the palm's. ways: (T, 2, 3) unit directions of the
+    first two bones of a thumb of which nothing tells how it is rolled, so that its frames are a
     guess; None where something does. rest_bend: bend of the middle joint in the source's posture
     of rest, radians, where that posture shows the last bone as straight on only because nothing
     tells where it ends; None where something does.

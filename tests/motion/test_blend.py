@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from azee.clip.blend import Blend, Concatenation, joined, repositioned
+from azee.clip.blend import Blend, Concatenation, common_rate, joined, repositioned
 from azee.clip.clip import Clip, Label
 from azee.clip.resample import sampled
 from azee_rig.load import load_rig
@@ -115,6 +115,30 @@ def test_labels_move_with_their_signs() -> None:
 def test_what_cannot_be_joined(overlap: float, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         joined(signs(), C, overlap_s=overlap)
+
+
+def still(times: Floats) -> Clip:
+    return Clip(times, np.tile(C.idle, (len(times), 1)), (), np.zeros((len(times), 0)))
+
+
+def test_a_rate_is_common_where_all_clips_have_it() -> None:
+    """Stills have none; one clip that is unevenly spaced takes it from all."""
+    thirty, slower = still(np.arange(9) / 30), still(5.0 + np.arange(4) / 25)
+    photo, uneven = still(np.array([2.0])), still(np.array([0.0, 0.1, 0.3]))
+    assert common_rate([thirty, thirty]) == pytest.approx(30)
+    assert common_rate([photo, slower, photo]) == pytest.approx(25)
+    for clips in ([thirty, slower], [slower, thirty], [thirty, thirty, slower]):
+        assert common_rate(clips) is None
+    for clips in ([thirty, uneven], [uneven, thirty], [uneven], [photo], []):
+        assert common_rate(clips) is None
+
+
+def test_frames_of_two_clips_a_rounding_error_apart_are_one() -> None:
+    one = still(np.array([0.0, 0.4, 1.0]))
+    other = still(np.array([0.0, 0.4 + 3e-7, 1.0]))
+    whole = joined([one, other], C, overlap_s=1.0)
+    assert whole.times == pytest.approx([0.0, 0.4, 1.0], abs=1e-6)
+    assert len(whole.times) == 3
 
 
 def test_repositioning_zeroes_the_roots_six_parameters_alone() -> None:

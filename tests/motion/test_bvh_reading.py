@@ -111,6 +111,10 @@ def test_what_had_to_be_guessed_is_said(change: tuple[str, str], note: str) -> N
         (("0 0 0 5 90", "0 0 -1e300 5 90"), "line 24: `-1e300` is too large"),
         (("OFFSET 0 20 0", "OFFSET 0 2e200 0"), "line 12: `2e200` is too large"),
         (("OFFSET 0 20 0", "OFFSET 0 -inf 0"), "line 12: `-inf` is infinite"),
+        (("HIERARCHY", "CHANNELS 3 Xrotation"), "line 1: CHANNELS outside of all joints"),
+        (("OFFSET 0 10 0", "CHANNELS 1 Xrotation"), "line 16: CHANNELS outside of all joints"),
+        (("HIERARCHY", "OFFSET 0 0 0"), "line 1: an OFFSET outside of all joints"),
+        (("OFFSET 0 10 0", "JOINT a { }"), "line 16: a joint below an end site"),
         (("HIERARCHY", "End Site { OFFSET 0 0 0 }"), "line 1: an end site outside of all joints"),
         (("End Site", "End Site { End Site"), "line 14: an end site outside of all joints"),
         (("1 Zrotation", "1e9 Zrotation"), "line 9: `1e9` is no number of channels"),
@@ -229,8 +233,8 @@ def test_a_frame_time_that_is_no_seconds(written: str, rate: float, said: str | 
 
 def test_units_of_length() -> None:
     """Each is the likeliest for some figure; each can be said."""
-    for unit, metre in {"m": 1, "cm": 0.01, "inch": 0.0254, "mm": 0.001, "dm": 0.1}.items():
-        scale = 1.6 / (160 * metre)
+    for unit, metre in UNITS_M.items():
+        scale = 0.01 / metre
         places = parse_bvh(scaled(FIGURE, scale)).frames()[0]
         assert np.ptp(places[0, :, 1]) == pytest.approx(1.5, abs=1e-3), unit
     for unit, metre in UNITS_M.items():

@@ -14,10 +14,11 @@ from stick_signer import FINGERS, bent, stick_signer
 
 from azee.clip.bvh import parse_bvh
 from azee.clip.clip import Clip
-from azee.clip.digits import DIGITS, SIDES, Digit, DigitFit
+from azee.clip.digits import DIGITS, SIDES, Digit, DigitFit, thumb_turns
 from azee.clip.retarget import Retargeted, retarget
 from azee.clip.retarget_source import Measured, measure_clip, measure_recording
 from azee.export.formats.bvh import write_bvh
+from azee.export.formats.euler import EulerZXY
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 
@@ -215,6 +216,43 @@ def test_a_thumb_bends_about_the_axis_that_it_turns_about(signer: Rig, side: str
     found = degrees(source, signer)
     np.testing.assert_allclose(found[f"thumb_{side}_2.flexion"], [10, 30, 50], atol=1e-3)
     np.testing.assert_allclose(found[f"thumb_{side}_3.flexion"], [5, 15, 25], atol=1e-3)
+
+
+def thumb_turning(*axes: Floats) -> Digit:
+    """A left thumb whose outer joints turn about given axes, the same where there is one."""
+    frames = []
+    for angle in (0.0, 0.3, 0.6):
+        half = angle / 2.0
+        turns = {}
+        for k, axis in zip((2, 3), (*axes, *axes), strict=False):
+            q = np.r_[np.cos(half), np.sin(half) * axis]
+            z, x, y = np.degrees(EulerZXY.from_quaternions(q[None]).angles[0])
+            turns[f"thumb_L_{k}"] = (float(z), float(x), float(y))
+        frames.append(turns)
+    (thumb,) = (d for d in measured(stick_signer(frames)).digits if d.name == "thumb_L")
+    return thumb
+
+
+@pytest.mark.parametrize(
+    ("roll_deg", "believed"), [(0, True), (-60, True), (40, True), (58, False), (-110, False)]
+)
+def test_an_axis_that_no_thumb_bends_about_tells_no_roll(roll_deg: float, believed: bool) -> None:
+    """The thumb points ahead and sideways; its roll counts from an axis that is vertical."""
+    along = np.array([2.5, 0.0, 2.0]) / np.hypot(2.5, 2.0)
+    up = np.array([0.0, 1.0, 0.0])
+    angle = np.radians(roll_deg)
+    thumb = thumb_turning(np.cos(angle) * up + np.sin(angle) * np.cross(along, up))
+    assert (thumb.ways is None) == believed
+    if believed:
+        roll = thumb_turns(thumb.frames[:1, 0], 1.0)[2]
+        assert np.degrees(roll) == pytest.approx(roll_deg, abs=1e-6)
+
+
+def test_joints_that_are_no_hinges_tell_no_roll(signer: Rig) -> None:
+    thumb = thumb_turning(np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]))
+    assert thumb.ways is not None
+    found, _ = DigitFit(signer, "thumb_L").angles(thumb)
+    assert np.degrees(found[0, 2]) == pytest.approx(-25.6, abs=10)
 
 
 def test_a_clip_of_one_rig_keeps_its_angles_on_another(signer: Rig) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import jsonschema
@@ -19,6 +20,7 @@ from azee.clips import open_clip
 from azee.export.formats.bvh import write_bvh
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
+from azee_rig.rotation import about_axis
 
 FRAMES = 40
 
@@ -179,7 +181,7 @@ def test_smoothing_is_a_matter_of_time_not_of_frames() -> None:
     """A clip of a millisecond a frame is smoothed over the same time as one of a thirtieth."""
     rng = np.random.default_rng(2)
     for step in (0.001, 1 / 30):
-        times = np.arange(901) * step
+        times = np.linspace(0.0, 900 * step, 901)
         wave = np.sin(2 * np.pi * times / 0.3)[:, None]
         inner = (times > 0.3) & (times < times[-1] - 0.3)
         assert np.abs(smoothed(wave, times)[inner]).max() < 0.25
@@ -256,3 +258,38 @@ def test_bvh_of_another_body_that_ships_is_that_bodys_clip(
     assert made.rig.name == "child"
     moved = made.clip.coordinates[:, made.rig.coordinates.index["eye_L.yaw"]]
     assert moved == pytest.approx(0.2, abs=1e-6)
+
+
+def posed(rig: Rig, frames: int, degrees: dict[str, float]) -> Clip:
+    """A still of some frames, both arms alike; coordinates that are not named rest."""
+    c = rig.coordinates
+    q = np.tile(c.idle, (frames, 1))
+    for name, angle in degrees.items():
+        for side in "LR":
+            q[:, c.index[name.format(side)]] = np.radians(angle)
+    return Clip(np.arange(frames) / 30, q, (), np.zeros((frames, 0)))
+
+
+def test_no_joint_goes_from_limit_to_limit_in_a_frame(signer: Rig) -> None:
+    """Palms that turn once round, which no forearm does: it must go back, and takes its time."""
+    still = posed(signer, 60, {
+        "arm_{}.flexion": 35, "f_arm_{}.flexion": 95, "f_arm_{}.pronation": 60
+    })  # fmt: skip
+    source = measure_clip(still, signer)
+    turn = about_axis(1, np.linspace(0, 2 * np.pi, 60))
+    made = retarget(replace(source, palms=source.palms @ turn[:, None]), signer)
+    q = made.clip.coordinates
+    columns = [signer.coordinates.index[f"f_arm_{side}.pronation"] for side in "LR"]
+    assert np.degrees(np.ptp(q[:, columns], axis=0)).min() > 150
+    assert np.degrees(np.abs(np.diff(q, axis=0)).max()) < 60
+
+
+def test_elbows_are_about_where_they_were(signer: Rig) -> None:
+    """Wrist and palm leave the arm free to turn about the line from shoulder to wrist."""
+    source = measure_clip(posed(signer, 2, {
+        "arm_{}.flexion": 30, "arm_{}.abduction": 70, "arm_{}.rotation": 80,
+        "f_arm_{}.flexion": 110, "f_arm_{}.pronation": 60,
+    }), signer)  # fmt: skip
+    made = measure_clip(retarget(source, signer).clip, signer)
+    assert np.linalg.norm(made.elbows - source.elbows, axis=-1).max() < 0.035
+    assert np.linalg.norm(made.wrists - source.wrists, axis=-1).max() < 0.001

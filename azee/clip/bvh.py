@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.clip.bvh_hierarchy import BvhError, Joint, read_hierarchy
+from azee.clip.bvh_hierarchy import BvhError, Joint, read_hierarchy, shown
 from azee.clip.bvh_motion import read_motion
 from azee.clip.recording import Recording
 from azee_rig.rotation import about_axis, to_quaternions
@@ -50,7 +50,7 @@ def read_bvh(path: str | Path, unit: str | None = None) -> Recording:
     Args: unit: of its lengths, one of `UNITS_M`; guessed where none is given.
     Raises: OSError. BvhError: the file is none, or is damaged.
     """
-    return parse_bvh(_decoded(Path(path).read_bytes()), unit)
+    return parse_bvh(decoded(Path(path).read_bytes()), unit)
 
 
 def parse_bvh(text: str, unit: str | None = None) -> Recording:
@@ -72,7 +72,8 @@ def parse_bvh(text: str, unit: str | None = None) -> Recording:
         raise BvhError(str(error)) from error
 
 
-def _decoded(data: bytes) -> str:
+def decoded(data: bytes) -> str:
+    """Return the text of a file in any of the encodings that BVH comes in."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return data.decode("utf-16", errors="replace")
     try:
@@ -142,7 +143,7 @@ def _placed(
     for j, channels in moved.items():
         for axis in channels:
             translations[:, j, axis] += offsets[j, axis]
-    whose = f"`{joints[sliding[0]].name}`"
+    whose = f"`{shown(joints[sliding[0]].name)}`"
     if len(sliding) > 1:
         whose = f"{len(sliding)} joints, such as {whose},"
     notes.append(f"the positions of {whose} are taken as added to the OFFSET")

@@ -11,6 +11,8 @@ import numpy as np
 
 LARGEST_NUMBER = 1e9
 """No length and no angle of a file is larger, in whatever unit."""
+LONGEST_SHOWN = 40
+"""Characters of a file's word that a message quotes."""
 MOST_CHANNELS = 9
 """Three of place, three of turn, three of scale."""
 
@@ -83,7 +85,9 @@ def read_hierarchy(text: str, notes: list[str]) -> list[Joint]:
                 else:
                     too_many.append(tokens.line)
             case _:
-                raise BvhError(f"line {tokens.line}: `{word}` is not part of a BVH hierarchy")
+                raise BvhError(
+                    f"line {tokens.line}: `{shown(word)}` is not part of a BVH hierarchy"
+                )
     if open_:
         raise BvhError("the hierarchy ends before all its braces are closed")
     if not joints:
@@ -113,10 +117,8 @@ def _tell_apart(joints: list[Joint], notes: list[str]) -> None:
         joint.name = f"{name}_{number}"
         taken.add(joint.name)
     more = f" and {len(twice) - 1} further names" if len(twice) > 1 else ""
-    notes.append(
-        f"{counts[twice[0]]} joints are called `{twice[0]}`{more}: they are told apart by where "
-        "they stand"
-    )
+    called = f"{counts[twice[0]]} joints are called `{shown(twice[0])}`{more}"
+    notes.append(f"{called}: they are told apart by where they stand")
 
 
 class _Tokens:
@@ -146,7 +148,7 @@ class _Tokens:
         words = []
         while (word := self.take("`{`")) != "{":
             if word in ("OFFSET", "CHANNELS", "}"):
-                raise BvhError(f"line {self.line}: `{word}` where `{{` should stand")
+                raise BvhError(f"line {self.line}: `{shown(word)}` where `{{` should stand")
             words.append(word)
         return " ".join(words)
 
@@ -160,6 +162,12 @@ class _Tokens:
         return self._words[max(0, self._next - 1)][1] if self._words else 1
 
 
+def shown(word: str) -> str:
+    """Return a word of the file as a message may quote it: printable, and not long."""
+    plain = "".join(sign if sign.isprintable() else "\N{REPLACEMENT CHARACTER}" for sign in word)
+    return plain if len(plain) <= LONGEST_SHOWN else f"{plain[:LONGEST_SHOWN]}…"
+
+
 def number_of(word: str, line: int) -> float:
     """Return the number that a word is, with a decimal point or comma.
 
@@ -168,24 +176,24 @@ def number_of(word: str, line: int) -> float:
     try:
         value = float(word.rstrip(",;").replace(",", "."))
     except ValueError:
-        raise BvhError(f"line {line}: `{word}` is not a number") from None
+        raise BvhError(f"line {line}: `{shown(word)}` is not a number") from None
     if not np.isfinite(value):
-        raise BvhError(f"line {line}: `{word}` is infinite or not a number")
+        raise BvhError(f"line {line}: `{shown(word)}` is infinite or not a number")
     if abs(value) > LARGEST_NUMBER:
-        raise BvhError(f"line {line}: `{word}` is too large for a length or an angle")
+        raise BvhError(f"line {line}: `{shown(word)}` is too large for a length or an angle")
     return value
 
 
 def _channels(tokens: _Tokens) -> list[tuple[str, int]]:
     word = tokens.take("a number of channels")
     if not (word.isascii() and word.isdigit() and int(word) <= MOST_CHANNELS):
-        raise BvhError(f"line {tokens.line}: `{word}` is no number of channels")
+        raise BvhError(f"line {tokens.line}: `{shown(word)}` is no number of channels")
     channels = []
     for _ in range(int(word)):
         word = tokens.take("a channel")
         found = _CHANNEL.fullmatch(word)
         if found is None:
-            raise BvhError(f"line {tokens.line}: `{word}` is not a channel")
+            raise BvhError(f"line {tokens.line}: `{shown(word)}` is not a channel")
         channels.append((found[2].lower(), "xyz".index(found[1].lower())))
     places = [axis for kind, axis in channels if kind == "position"]
     if len(set(places)) < len(places):

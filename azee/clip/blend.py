@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from azee.clip.clip import Clip
 from azee.clip.edit import shifted
-from azee.clip.resample import EVEN_S, rate, sampled
+from azee.clip.resample import EVEN_S, frame_count, rate, sampled
 from azee.clip.spline import minimum_jerk
 from azee_rig.coordinates import Coordinates
 
@@ -158,11 +158,11 @@ def joined(
 
     Args: fps: of the result; by default the frames of the clips, and in an overlap those of both.
     Raises: ValueError: there is nothing to join, or a clip is shorter than its blends.
+        TooManyFramesError: of too many frames.
     """
     whole = Concatenation(tuple(clips), coordinates, overlap_s, blend)
     if fps is not None:
-        count = int(np.floor(whole.duration_s * fps + 1e-6)) + 1
-        return whole.clip(np.arange(count) / fps)
+        return whole.clip(np.arange(frame_count(whole.duration_s, fps)) / fps)
     starts = zip(whole.clips, whole.starts_s, strict=True)
     times = np.concatenate([clip.times + start for clip, start in starts])
     return whole.clip(_apart(np.sort(times)))

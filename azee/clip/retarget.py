@@ -12,6 +12,7 @@ itself, then close to the smoothed result, so that free coordinates do not jump.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,6 +28,7 @@ from azee_rig.rig import Rig
 from azee_rig.rotation import rotation_vectors
 
 Floats = NDArray[np.float64]
+Rows = NDArray[np.int64]
 
 ARM = (
     "clav_{S}.elevation", "clav_{S}.protraction", "arm_{S}.flexion", "arm_{S}.abduction",
@@ -42,6 +44,10 @@ PRONATION = ARM.index("f_arm_{S}.pronation")
 KEPT_SHARE, KEPT_OFF_RAD, KEPT_TIP_M = 0.03, np.radians(5.0), 0.003
 """Up to here, in arm lengths, radians and metres, hands and fingers count as where they were."""
 SWEEPS, STEP_RAD = 40, 1e-6
+ENOUGH = 1e-6
+"""A step that gains less, in squares of what weighs as 1, is the last of its frame."""
+CHUNK = 1024
+"""Frames that are solved together: each for itself, so that long recordings need no more room."""
 FASTEST_RAD_S = 25.0
 """Faster turns, 1,430°/s, are jumps: about the largest measured of an elbow (docs/motion.md)."""
 SMOOTH_S = 0.15
@@ -180,31 +186,56 @@ class _Arms:
 
     def solved(self, start: Floats, wish: Floats) -> Floats:
         """Postures (T, V) that come nearest, from others; what is free stays near the wish."""
-        c = self.rig.coordinates
+        q = start.copy()
+        for first in range(0, len(q), CHUNK):
+            frames = np.arange(first, min(first + CHUNK, len(q)))
+            q[frames] = self._some(frames)._solved(q[frames], wish[frames])
+        return q
+
+    def _some(self, frames: Rows) -> _Arms:
+        """Return the wishes for some of the frames."""
+        some = copy(self)
+        for name in ("wrists", "elbows", "turns"):
+            setattr(some, name, getattr(self, name)[frames])
+        return some
+
+    def _solved(self, start: Floats, wish: Floats) -> Floats:
+        """Solve each frame for itself; those that no step improves any more are left alone."""
         q = start.copy()
         cost, r = self._residual(q, wish)
         damping = np.full((len(q), 2), 1e-2)
+        busy = np.arange(len(q))
         for _ in range(SWEEPS):
-            J = self._jacobian(q, wish, r)
-            JT = np.swapaxes(J, -1, -2)
-            normal = JT @ J + damping[..., None, None] * np.eye(len(ARM))
-            step = -np.linalg.solve(normal, JT @ r[..., None])[..., 0]
-            tried = q.copy()
-            for s, columns in enumerate(self.columns):
-                moved = q[:, columns] + np.clip(step[:, s], -0.5, 0.5)
-                tried[:, columns] = np.clip(moved, c.lower[columns], c.upper[columns])
-            after, r_after = self._residual(tried, wish)
-            better = after < cost
+            some = self._some(busy)
+            tried = some._step(q[busy], wish[busy], r[busy], damping[busy])
+            after, r_after = some._residual(tried, wish[busy])
+            better = after < cost[busy]
             for s, columns in enumerate(self.columns):
                 rows = np.flatnonzero(better[:, s])
-                q[rows[:, None], columns] = tried[rows[:, None], columns]
-            done = np.abs(cost - after)[better].max(initial=0.0) < 1e-6
-            r = np.where(better[..., None], r_after, r)
-            cost = np.where(better, after, cost)
-            damping = np.where(better, damping * 0.3, damping * 5.0).clip(1e-8, 1e8)
-            if done and not (~better & (damping < 1e4)).any():
+                q[busy[rows][:, None], columns] = tried[rows[:, None], columns]
+            gain = np.where(better, cost[busy] - after, 0.0)
+            r[busy] = np.where(better[..., None], r_after, r[busy])
+            cost[busy] = np.where(better, after, cost[busy])
+            factor = np.where(better, 0.3, 5.0)
+            damping[busy] = (factor * damping[busy]).clip(1e-8, 1e8)
+            stuck = ~better & (damping[busy] < 1e4)
+            busy = busy[((gain > ENOUGH) | stuck).any(axis=1)]
+            if not len(busy):
                 break
         return q
+
+    def _step(self, q: Floats, wish: Floats, r: Floats, damping: Floats) -> Floats:
+        """Postures (T, V) a damped Gauss–Newton step further, inside the limits."""
+        c = self.rig.coordinates
+        J = self._jacobian(q, wish, r)
+        JT = np.swapaxes(J, -1, -2)
+        normal = JT @ J + damping[..., None, None] * np.eye(len(ARM))
+        step = -np.linalg.solve(normal, JT @ r[..., None])[..., 0]
+        tried = q.copy()
+        for s, columns in enumerate(self.columns):
+            moved = q[:, columns] + np.clip(step[:, s], -0.5, 0.5)
+            tried[:, columns] = np.clip(moved, c.lower[columns], c.upper[columns])
+        return tried
 
     def starts(self, q: Floats) -> list[Floats]:
         """Return start postures (T, V): the given ones, and ones with forearms turned out and in.

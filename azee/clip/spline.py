@@ -7,6 +7,9 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
+CHUNK = 4096
+"""Times that are evaluated together: what is on the way to values stays small."""
+
 
 def minimum_jerk(tau: ArrayLike) -> Array:
     """Return 10τ³ − 15τ⁴ + 6τ⁵ of a time that goes from 0 to 1 (Flash and Hogan 1985).
@@ -39,14 +42,18 @@ def cubic_spline(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:
         curvature[1:-1] = _not_a_knot(h, 6.0 * np.diff(slopes, axis=0))
         curvature[0] = curvature[1] + h[0] / h[1] * (curvature[1] - curvature[2])
         curvature[-1] = curvature[-2] + h[-1] / h[-2] * (curvature[-2] - curvature[-3])
-    k = np.clip(np.searchsorted(x, u, side="right") - 1, 0, n - 2)
-    right = (u - x[k])[:, None]
-    left, width = (x[k + 1] - u)[:, None], h[k][:, None]
-    return np.asarray(
-        (curvature[k] * left**3 + curvature[k + 1] * right**3) / (6.0 * width)
-        + (y[k] / width - curvature[k] * width / 6.0) * left
-        + (y[k + 1] / width - curvature[k + 1] * width / 6.0) * right
-    )
+    out = np.empty((len(u), *y.shape[1:]))
+    for start in range(0, len(u), CHUNK):
+        part = slice(start, start + CHUNK)
+        k = np.clip(np.searchsorted(x, u[part], side="right") - 1, 0, n - 2)
+        right = (u[part] - x[k])[:, None]
+        left, width = (x[k + 1] - u[part])[:, None], h[k][:, None]
+        out[part] = (
+            (curvature[k] * left**3 + curvature[k + 1] * right**3) / (6.0 * width)
+            + (y[k] / width - curvature[k] * width / 6.0) * left
+            + (y[k + 1] / width - curvature[k + 1] * width / 6.0) * right
+        )
+    return out
 
 
 def _not_a_knot(h: Array, b: Array) -> Array:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from azee.clip.blend import Blend, Concatenation, common_rate, joined, repositioned
 from azee.clip.clip import Clip, Label
-from azee.clip.resample import sampled
+from azee.clip.resample import TooManyFramesError, sampled
 from azee_rig.load import load_rig
 
 Floats = NDArray[np.float64]
@@ -131,6 +131,12 @@ def test_a_rate_is_common_where_all_clips_have_it() -> None:
         assert common_rate(clips) is None
     for clips in ([thirty, uneven], [uneven, thirty], [uneven], [photo], []):
         assert common_rate(clips) is None
+
+
+def test_more_frames_than_anybody_wants_are_refused_with_their_number() -> None:
+    long = still(np.array([0.0, 9000.0]))
+    with pytest.raises(TooManyFramesError, match=r"18000 s at 30 frames a second are 540,001"):
+        joined([long, long], C, fps=30)
 
 
 def test_frames_of_two_clips_a_rounding_error_apart_are_one() -> None:

@@ -12,6 +12,7 @@ import pytest
 from formats import schema
 
 from azee.cli.main import run
+from azee.clip import retarget as retargeting
 from azee.clip.bvh import parse_bvh, read_bvh
 from azee.clip.clip import Clip
 from azee.clip.retarget import retarget, smoothed
@@ -293,3 +294,14 @@ def test_elbows_are_about_where_they_were(signer: Rig) -> None:
     made = measure_clip(retarget(source, signer).clip, signer)
     assert np.linalg.norm(made.elbows - source.elbows, axis=-1).max() < 0.035
     assert np.linalg.norm(made.wrists - source.wrists, axis=-1).max() < 0.001
+
+
+def test_frames_are_solved_a_chunk_at_a_time(
+    signer: Rig, clip: Clip, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each frame is solved for itself: those beside it do not matter."""
+    source = measure_clip(clip, signer)
+    whole = retarget(source, load_rig("child"))
+    monkeypatch.setattr(retargeting, "CHUNK", 7)
+    parts = retarget(source, load_rig("child"))
+    np.testing.assert_allclose(parts.clip.coordinates, whole.clip.coordinates, atol=1e-9)

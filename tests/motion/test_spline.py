@@ -3,6 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from azee.clip import spline
 from azee.clip.spline import cubic_spline, minimum_jerk
 
 
@@ -50,3 +51,13 @@ def test_a_spline_goes_through_its_samples_without_a_kink() -> None:
         curve_jump = (p[4] - 2 * p[3] + p[2]) / h**2 - (p[2] - 2 * p[1] + p[0]) / h**2
         assert np.abs(slope_jump).max() < 0.2
         assert np.abs(curve_jump).max() < 2.0
+
+
+def test_times_are_evaluated_a_chunk_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(5)
+    x, y = np.cumsum(rng.uniform(0.1, 1, 9)), rng.normal(size=(9, 2))
+    at = np.sort(rng.uniform(x[0], x[-1], 50))
+    whole = cubic_spline(x, y, at)
+    monkeypatch.setattr(spline, "CHUNK", 7)
+    assert (cubic_spline(x, y, at) == whole).all()
+    assert cubic_spline(x, y, at[:0]).shape == (0, 2)

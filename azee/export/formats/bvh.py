@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,8 @@ About the ratio of distal to middle phalanges.
 """
 ONE_FRAME_S = 1 / 30
 """Frame time of a still."""
+CHUNK = 1024
+"""Frames that are posed and written together, so that a long clip needs no more room."""
 
 
 def write_bvh(clip: Clip, rig: MovingBody, path: str | Path) -> None:
@@ -42,25 +45,34 @@ def write_bvh(clip: Clip, rig: MovingBody, path: str | Path) -> None:
     Raises: OSError: the file cannot be written. ValueError: the clip's frames are not evenly
         spaced, or the skeleton has more than one root.
     """
-    skeleton, pose = rig.skeleton, rig.pose(clip.coordinates)
+    skeleton = rig.skeleton
     below = _children(skeleton)
     names = _names(skeleton)
     order = list(_depth_first(0, below))
     if len(order) != len(skeleton.names):
         raise ValueError("a BVH file holds one skeleton, with one root")
-    root = skeleton.offsets[0] + np.broadcast_to(pose.root_translation, (len(clip.times), 3))
-    angles = np.degrees(EulerZXY.from_quaternions(pose.rotations[:, order]).angles)
-    rows = np.hstack([root * CENTIMETRES, angles.reshape(len(angles), -1)])
     lines = [
         "HIERARCHY",
         *_joint(skeleton, 0, names, below, 0),
         "MOTION",
-        f"Frames: {len(rows)}",
+        f"Frames: {len(clip.times)}",
         f"Frame Time: {_frame_time(clip.times):.9g}",
-        *(_numbers(row) for row in rows),
     ]
     with replace_file(path) as file:
-        file.write(("\n".join(lines) + "\n").encode("ascii"))
+        for line in chain(lines, _rows(clip, rig, order)):
+            file.write(f"{line}\n".encode("ascii"))
+
+
+def _rows(clip: Clip, rig: Rig, order: Sequence[int]) -> Iterator[str]:
+    """Yield a line for each frame, a chunk of frames at a time."""
+    before: NDArray[np.float64] | None = None
+    for start in range(0, len(clip.times), CHUNK):
+        pose = rig.pose(clip.coordinates[start : start + CHUNK])
+        euler = EulerZXY.from_quaternions(pose.rotations[:, order], before).angles
+        before = euler[-1]
+        root = rig.skeleton.offsets[0] + np.broadcast_to(pose.root_translation, (len(euler), 3))
+        rows = np.hstack([root * CENTIMETRES, np.degrees(euler).reshape(len(euler), -1)])
+        yield from map(_numbers, rows)
 
 
 def _children(skeleton: Skeleton) -> list[list[int]]:

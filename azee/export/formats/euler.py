@@ -21,8 +21,12 @@ class EulerZXY:
     angles: NDArray[np.float64]
 
     @classmethod
-    def from_quaternions(cls, rotations: NDArray[np.float64]) -> EulerZXY:
+    def from_quaternions(
+        cls, rotations: NDArray[np.float64], after: NDArray[np.float64] | None = None
+    ) -> EulerZXY:
         """Take angles from unit quaternions wxyz, (T, …, 4).
+
+        Args: after: angles (…, 3) of the frame before the first, if there is one.
 
         Multiplying the three half-angle quaternions out gives, with s = (z + y)/2,
         d = (z − y)/2 and h = x/2,
@@ -42,7 +46,7 @@ class EulerZXY:
         s, d = np.arctan2(z + y, w + x), np.arctan2(z - y, w - x)
         pitch = 2 * np.arctan2(plus, minus) - np.pi / 2
         angles = np.empty((*w.shape, 3))
-        previous = np.zeros((*w.shape[1:], 3))
+        previous = np.zeros((*w.shape[1:], 3)) if after is None else after
         for t in range(len(w)):
             s_t = np.where(plus[t] < LOCKED, (previous[..., 0] + previous[..., 2]) / 2, s[t])
             d_t = np.where(minus[t] < LOCKED, (previous[..., 0] - previous[..., 2]) / 2, d[t])

@@ -93,15 +93,15 @@ def read_clip(path: str | Path, rig: Rig) -> Clip:
                 f"`{path}` moves the face unit `{missing[0]}`, which the rig `{rig.name}` "
                 "does not have"
             )
-        if not all(np.isfinite(a).all() for a in (arrays["times"], q, arrays["unit_weights"])):
+        if not np.isfinite(q).all():
             raise ClipFileError(f"`{path}` holds numbers that are none")
-        return Clip(
-            arrays["times"],
-            np.clip(q, rig.coordinates.lower, rig.coordinates.upper),
-            tuple(header["units"]),
-            arrays["unit_weights"],
-            tuple(_label(*stored) for stored in header["labels"]),
-        )
+        q = np.clip(q, rig.coordinates.lower, rig.coordinates.upper)
+        labels = tuple(_label(*stored) for stored in header["labels"])
+        units = tuple(header["units"])
+        try:
+            return Clip(arrays["times"], q, units, arrays["unit_weights"], labels)
+        except ValueError as error:
+            raise ClipFileError(f"`{path}` is a damaged clip: {error}") from error
     except ClipFileError:
         raise
     except (KeyError, TypeError, ValueError, IndexError) as error:

@@ -1,4 +1,4 @@
-"""What a file of motion is, by its first bytes: names may lie, and some have no suffix."""
+"""What a file of motion is, by its suffix and its first bytes: some lie, some have no suffix."""
 
 from __future__ import annotations
 
@@ -23,16 +23,17 @@ def motion_kind(path: Path) -> str:
     """
     with path.open("rb") as file:
         start = file.read(LOOKED_AT)
-    if start.startswith(b"PK\x03\x04"):
-        return "clip" if path.suffix.lower() != ".usdz" else "USD"
+    suffix = path.suffix.lower()
     if start.startswith((b"Kaydara FBX Binary", b"; FBX")):
         return "FBX"
     if start.startswith(b"glTF"):
-        named = OTHERS.get(path.suffix.lower(), "")
+        named = OTHERS.get(suffix, "")
         return named if "VRM" in named else "glTF"
+    if suffix in (".bvh", ".npz"):
+        return "bvh" if suffix == ".bvh" else "clip"
     text = start.replace(b"\0", b"").lstrip(b"\xef\xbb\xbf\xff\xfe \t\r\n")
     if text[:9].upper() == b"HIERARCHY":
         return "bvh"
-    if path.suffix.lower() in (".bvh", ".npz"):
-        return "bvh" if path.suffix.lower() == ".bvh" else "clip"
-    return OTHERS.get(path.suffix.lower(), "")
+    if start.startswith(b"PK\x03\x04") and suffix not in OTHERS:
+        return "clip"
+    return OTHERS.get(suffix, "")

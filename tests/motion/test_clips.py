@@ -216,6 +216,27 @@ def test_frames_that_no_clock_tells_apart_make_no_clip(step_s: float) -> None:
         retimed(Clip(np.arange(4.0), np.tile(C.idle, (4, 1)), (), np.zeros((4, 0))), 3 * step_s)
 
 
+@pytest.mark.parametrize(
+    ("name", "values", "said"),
+    [
+        ("times", 1e-8 * np.arange(3.0), "frames follow each other every 1e-08 s"),
+        ("times", np.array([0.0, 2.0, 1.0]), "times do not increase"),
+        ("coordinates", np.full((3, len(C)), np.nan), "holds numbers that are none"),
+        ("unit_weights", np.full((3, 1), 1e30), "weights of the face are as large as 1e\\+30"),
+    ],
+)
+def test_a_stored_clip_that_no_clip_could_be_says_why(
+    name: str, values: Floats, said: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "x.npz"
+    with path.open("wb") as file:
+        clip = Clip(np.arange(3.0), np.tile(C.idle, (3, 1)), ("jawOpen",), np.zeros((3, 1)))
+        write_clip(clip, RIG, file)
+    np.savez(path, **(dict(np.load(path)) | {name: values}))
+    with pytest.raises(ClipFileError, match=said):
+        read_clip(path, RIG)
+
+
 def test_a_cut_takes_the_place_of_a_frame_a_rounding_error_away() -> None:
     clip = Clip(np.arange(5.0), np.tile(C.idle, (5, 1)), (), np.zeros((5, 0)))
     part = cut(clip, 1.0 - 1e-9, 3.0 + 1e-9, C)

@@ -63,7 +63,7 @@ def write_bvh(clip: Clip, rig: MovingBody, path: str | Path) -> None:
             file.write(f"{line}\n".encode("ascii"))
 
 
-def _rows(clip: Clip, rig: Rig, order: Sequence[int]) -> Iterator[str]:
+def _rows(clip: Clip, rig: MovingBody, order: Sequence[int]) -> Iterator[str]:
     """Yield a line for each frame, a chunk of frames at a time."""
     before: NDArray[np.float64] | None = None
     for start in range(0, len(clip.times), CHUNK):

@@ -138,7 +138,7 @@ def main(wheel: Path, folder: Path) -> None:
     final = with_four_influences(mesh, made.skeleton, poses)
     folder.mkdir(parents=True, exist_ok=True)
     write_mesh(folder / "mesh.npz", final, compressed=folder.name in OTHERS)
-    write_rig(folder / "rig.json", replace(rig, sites=riding(rig, final)))
+    write_rig(folder / "rig.json", replace(rig, sites=riding(rig, final)), folder / "mesh.npz")
 
 
 if __name__ == "__main__":

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+import zipfile
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from azee_rig.fields import mapping, names, number, numbers, rows, text, whole
 from azee_rig.machine_code import Kernel
 from azee_rig.skeleton import frozen
 
@@ -65,6 +68,42 @@ class BodyMesh:
             object.__setattr__(self, name, frozen(getattr(self, name), np.int64))
         for name in ("vertices", "colours", "weights", "unit_deltas"):
             object.__setattr__(self, name, frozen(getattr(self, name), np.float64))
+        self._check()
+
+    def _check(self) -> None:
+        """Hold every index to what it counts: compiled loops do not. Raises: ValueError."""
+        count, moved = len(self.vertices), len(self.unit_rows)
+        starts = self.unit_start
+        for name, shape in (
+            ("vertices", (count, 3)),
+            ("triangles", (len(self.triangles), 3)),
+            ("colours", (count, 3)),
+            ("joints", (count, *self.joints.shape[1:2])),
+            ("weights", self.joints.shape),
+            ("unit_start", (len(self.units) + 1,)),
+            ("unit_rows", (moved,)),
+            ("unit_deltas", (moved, 3)),
+        ):
+            array = getattr(self, name)
+            if array.shape != shape:
+                raise ValueError(f"its mesh has {name} of shape {array.shape}, not {shape}")
+            if array.dtype == np.float64 and not np.isfinite(array).all():
+                raise ValueError(f"its mesh has {name} that are infinite or none")
+        for name, limit in (
+            ("triangles", count),
+            ("joints", self.joint_count),
+            ("unit_rows", count),
+        ):
+            array = getattr(self, name)
+            if array.size and not 0 <= array.min() <= array.max() < limit:
+                raise ValueError(f"its mesh has {name} outside of 0 … {limit - 1}")
+        if starts[0] != 0 or starts[-1] != moved or (np.diff(starts) < 0).any():
+            raise ValueError("its mesh has face units that do not follow each other")
+        at = 0
+        for part in self.parts:
+            if not at <= part.start <= part.stop <= len(self.triangles):
+                raise ValueError(f"part `{part.name}` of its mesh has triangles that are not there")
+            at = part.stop
 
     @cached_property
     def normals(self) -> Floats:
@@ -132,23 +171,48 @@ def turned_normals(mesh: BodyMesh) -> Iterator[tuple[Ints, Floats]]:
 
 
 def read_mesh(path: Path) -> BodyMesh:
-    """Read a packed mesh. Weights are stored as parts of 65535, deltas in units of 1e-5 m."""
-    with np.load(path) as packed:
-        described = json.loads(packed["described"].tobytes())
-        weights = packed["weights"].astype(np.float64)
+    """Read a packed mesh. Weights are stored as parts of 65535, deltas in units of 1e-5 m.
+
+    Raises: OSError, ValueError, and whatever numpy's reader of zip files raises on a damaged one.
+    """
+    if not zipfile.is_zipfile(path):
+        raise ValueError(f"its {path.name} is no .npz file, or is cut off")
+    with path.open("rb") as file, np.load(file, allow_pickle=False) as packed:
+        described = mapping(json.loads(_packed(packed, "described").tobytes()), "described")
+        weights = _packed(packed, "weights").astype(np.float64)
+        sums = weights.sum(axis=-1, keepdims=True)
+        if sums.min(initial=1.0) <= 0.0:
+            raise ValueError("its mesh has a vertex that no joint carries")
         return BodyMesh(
-            vertices=packed["vertices"],
-            triangles=packed["triangles"],
-            parts=tuple(
-                Part(p["name"], p["start"], p["stop"], tuple(p["colour"]), p["roughness"])
-                for p in described["parts"]
-            ),
-            colours=packed["colours"] / 255.0,
-            joints=packed["joints"],
-            weights=weights / weights.sum(axis=1, keepdims=True),
-            units=tuple(described["units"]),
-            unit_start=packed["unit_start"],
-            unit_rows=packed["unit_rows"],
-            unit_deltas=packed["unit_deltas"] * described["delta_m"],
-            joint_count=described["joint_count"],
+            vertices=_packed(packed, "vertices", "f"),
+            triangles=_packed(packed, "triangles"),
+            parts=tuple(_part(row) for row in rows(described["parts"], "parts")),
+            colours=_packed(packed, "colours") / 255.0,
+            joints=_packed(packed, "joints"),
+            weights=weights / sums,
+            units=names(described["units"], "units"),
+            unit_start=_packed(packed, "unit_start"),
+            unit_rows=_packed(packed, "unit_rows"),
+            unit_deltas=_packed(packed, "unit_deltas") * number(described["delta_m"], "delta_m"),
+            joint_count=whole(described["joint_count"], "joint_count"),
         )
+
+
+def _packed(packed: Mapping[str, NDArray[Any]], name: str, kinds: str = "iu") -> NDArray[Any]:
+    if name not in packed:
+        raise ValueError(f"its mesh has no {name}")
+    array = packed[name]
+    if array.dtype.kind not in kinds:
+        raise ValueError(f"its mesh has {name} of type {array.dtype}")
+    return array
+
+
+def _part(row: Mapping[str, Any]) -> Part:
+    red, green, blue, opacity = numbers(row["colour"], (4,), "parts.colour").tolist()
+    return Part(
+        text(row["name"], "parts.name"),
+        whole(row["start"], "parts.start"),
+        whole(row["stop"], "parts.stop"),
+        (red, green, blue, opacity),
+        number(row["roughness"], "parts.roughness"),
+    )

@@ -7,6 +7,7 @@ differ: the chain to a picometre, what was measured on the mesh to a micrometre.
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
 import zipfile
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 
 from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Rig
+from azee_rig.rig_json import MESH_DIGEST
 
 EXACT, MEASURED = 12, 6
 DELTA_M = 1e-5
@@ -78,11 +80,15 @@ def write_mesh(path: Path, mesh: BodyMesh, *, compressed: bool = False) -> None:
     )
 
 
-def write_rig(path: Path, rig: Rig) -> None:
-    """Write everything but the mesh as JSON, one item to a line where items are many."""
+def write_rig(path: Path, rig: Rig, mesh: Path) -> None:
+    """Write everything but the mesh as JSON, one item to a line where items are many.
+
+    Args: mesh: its file, written before: the description bears its digest.
+    """
     c, chain, drive = rig.coordinates, rig.chain, rig.drive
     content = {
         "name": rig.name,
+        MESH_DIGEST: hashlib.sha256(mesh.read_bytes()).hexdigest(),
         "skeleton": {
             "names": rig.skeleton.names,
             "parents": _plain(rig.skeleton.parents),

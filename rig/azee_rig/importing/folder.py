@@ -41,7 +41,7 @@ def write_folder(made: Imported, folder: Path) -> None:
     try:
         new.mkdir()
         write_mesh(new / "mesh.npz", made.mesh, compressed=True)
-        write_rig(new / "rig.json", made.rig)
+        write_rig(new / "rig.json", made.rig, new / "mesh.npz")
         text = json.dumps(made.bones.as_json(), indent=1, ensure_ascii=False)
         (new / MAP).write_text(f"{text}\n", encoding="utf-8", newline="\n")
         if target.exists():

@@ -18,7 +18,10 @@ class GlbFile:
 
     @staticmethod
     def read(path: Path) -> GlbFile:
-        data = path.read_bytes()
+        return GlbFile.of(path.read_bytes())
+
+    @staticmethod
+    def of(data: bytes) -> GlbFile:
         size = struct.unpack_from("<I", data, 12)[0]
         return GlbFile(json.loads(data[20 : 20 + size]), data[28 + size :])
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from azee_rig.fields import shown
 from azee_rig.importing.container import GltfFile, whole
 from azee_rig.importing.fault import unreadable
 
@@ -20,8 +21,6 @@ TYPES: Mapping[int, np.dtype[Any]] = {
     5126: np.dtype("<f4"),
 }
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
-MOST = 20_000_000
-"""Elements of an array without data that are believed: it costs its maker nothing to claim more."""
 
 
 def read_array(file: GltfFile, index: object, *kinds: str) -> NDArray[Any]:
@@ -33,13 +32,16 @@ def read_array(file: GltfFile, index: object, *kinds: str) -> NDArray[Any]:
     accessor = file.one("accessors", index)
     kind, count = accessor.get("type"), whole(accessor, "count")
     if kind not in kinds:
-        raise unreadable(f"accessor {index} is {kind}, not {' or '.join(kinds)}")
+        raise unreadable(f"accessor {index} is {shown(kind)}, not {' or '.join(kinds)}")
     dtype = _dtype(accessor)
     width = WIDTHS[str(kind)]
     if "bufferView" in accessor:
         rows = _rows(file, accessor, whole(accessor, "byteOffset", 0), count, dtype, width)
-    elif count > MOST:
-        raise unreadable(f"accessor {index} claims {count} elements and has no data")
+    elif count > sum(map(len, file.buffers)):
+        raise unreadable(
+            f"accessor {index} claims {shown(count)} elements and has no data: the whole file has "
+            "fewer bytes"
+        )
     else:
         rows = np.zeros((count, width), dtype)
     sparse = accessor.get("sparse")
@@ -57,7 +59,7 @@ def read_array(file: GltfFile, index: object, *kinds: str) -> NDArray[Any]:
 def _dtype(item: Mapping[str, Any]) -> np.dtype[Any]:
     found = TYPES.get(whole(item, "componentType"))
     if found is None:
-        raise unreadable(f"there is no component type {item['componentType']}")
+        raise unreadable(f"there is no component type {shown(item['componentType'])}")
     return found
 
 
@@ -74,7 +76,7 @@ def _rows(
     stride = whole(file.one("bufferViews", item["bufferView"]), "byteStride", size) or size
     if stride < size or (count and start + stride * (count - 1) + size > len(data)):
         raise unreadable(
-            f"{count} elements of {size} bytes do not fit a buffer view of {len(data)}"
+            f"{shown(count)} elements of {size} bytes do not fit a buffer view of {len(data)}"
         )
     if not count:
         return np.zeros((0, width), dtype)

@@ -6,15 +6,15 @@ Nothing in a file is trusted: every length and index is checked before it is use
 from __future__ import annotations
 
 import base64
-import binascii
 import json
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-from urllib.parse import unquote
+from typing import Any, TypeGuard
+from urllib.parse import unquote, unquote_to_bytes
 
+from azee_rig.fields import shown
 from azee_rig.importing.fault import BodyError, unreadable
 
 READ = frozenset(
@@ -23,14 +23,28 @@ READ = frozenset(
         "VRMC_vrm",
         "VRMC_springBone",
         "VRMC_node_constraint",
-        "VRMC_materials_mtoon",
-        "VRMC_materials_hdr_emissiveMultiplier",
-        "KHR_materials_unlit",
+        "KHR_animation_pointer",
         "KHR_mesh_quantization",
-        "KHR_texture_transform",
+        "KHR_node_visibility",
+        "KHR_xmp",
+        "KHR_xmp_json_ld",
+        "MSFT_lod",
+        "MSFT_packing_normalRoughnessMetallic",
+        "MSFT_packing_occlusionRoughnessMetallic",
+        "MSFT_texture_dds",
+        "GODOT_single_root",
+        "ADOBE_materials_clearcoat_specular",
+        "ADOBE_materials_clearcoat_tint",
+        "ADOBE_materials_thin_transparency",
+        "AGI_articulations",
     }
 )
 """Extensions without which a file may not be read, and which are read or change nothing here."""
+DECORATING = (
+    *("KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_audio", "KHR_environment_map"),
+    *("EXT_texture_", "EXT_lights_", "EXT_materials_", "FB_materials_", "VRMC_materials_"),
+)
+"""How the names of extensions begin that change looks and light only, never the shape."""
 COMPRESSED = {
     "KHR_draco_mesh_compression": "Draco",
     "EXT_meshopt_compression": "meshopt",
@@ -42,12 +56,13 @@ COMPRESSED = {
 class GltfFile:
     """A file's JSON and buffers, unparsed.
 
-    document: the JSON object. buffers: bytes of each of its buffers.
+    document: the JSON object. buffers: bytes of each of its buffers. folder: where it lies.
     """
 
     name: str
     document: Mapping[str, Any]
     buffers: tuple[bytes, ...]
+    folder: Path
 
     def all(self, kind: str) -> Sequence[Mapping[str, Any]]:
         """Objects of an array of the top level, such as "nodes".
@@ -62,21 +77,23 @@ class GltfFile:
     def one(self, kind: str, index: object) -> Mapping[str, Any]:
         """Object of an array of the top level. Raises: BodyError: there is none."""
         found = self.all(kind)
-        if not isinstance(index, int) or isinstance(index, bool) or not 0 <= index < len(found):
-            raise unreadable(f"there is no {index} in `{kind}`, which has {len(found)}")
+        if not _is_whole(index):
+            raise unreadable(f"`{kind}` have numbers, and {shown(index)} is none")
+        if not 0 <= index < len(found):
+            raise unreadable(f"there is no {shown(index)} in `{kind}`, which has {len(found)}")
         return found[index]
 
     def view(self, index: object) -> memoryview:
         """Bytes of a buffer view. Raises: BodyError: it does not lie in its buffer."""
         view = self.one("bufferViews", index)
         number = view.get("buffer")
-        if not isinstance(number, int) or not 0 <= number < len(self.buffers):
+        if not _is_whole(number) or not 0 <= number < len(self.buffers):
             raise unreadable(f"buffer view {index} has no buffer")
         buffer = self.buffers[number]
         start, length = whole(view, "byteOffset", 0), whole(view, "byteLength")
         if start + length > len(buffer):
             raise unreadable(
-                f"buffer view {index} ends at byte {start + length} of {len(buffer)}",
+                f"buffer view {index} ends at byte {shown(start + length)} of {len(buffer)}",
                 "the file was probably cut off",
             )
         return memoryview(buffer)[start : start + length]
@@ -85,9 +102,20 @@ class GltfFile:
 def whole(item: Mapping[str, Any], key: str, default: int | None = None) -> int:
     """Return a property that is a whole number, not negative. Raises: BodyError."""
     value = item.get(key, default)
-    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
-        raise unreadable(f"`{key}` is {value!r}, not a whole number")
+    if not _is_whole(value) or value < 0:
+        raise unreadable(f"`{key}` is {shown(value)}, not a whole number")
     return value
+
+
+def _is_whole(value: object) -> TypeGuard[int]:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def label(value: object) -> str:
+    """Return a name out of the file: "" for what is none, and no half of a surrogate pair."""
+    if not isinstance(value, str | int | float) or isinstance(value, bool):
+        return ""
+    return (value if isinstance(value, str) else shown(value)).encode("utf-8", "replace").decode()
 
 
 def read_gltf(path: Path) -> GltfFile:
@@ -102,7 +130,7 @@ def read_gltf(path: Path) -> GltfFile:
         raise unreadable(f"cannot read `{path}`: {reason}") from error
     if data.startswith(b"glTF"):
         text, binary = _chunks(data)
-    elif data.lstrip()[:1] == b"{":
+    elif data.removeprefix(b"\xef\xbb\xbf").lstrip()[:1] == b"{":
         text, binary = data, None
     else:
         raise unreadable(
@@ -110,13 +138,13 @@ def read_gltf(path: Path) -> GltfFile:
             "FBX, OBJ and Blender's own files can be saved as .glb in Blender",
         )
     document = _json(text)
-    file = GltfFile(path.name, document, ())
+    file = GltfFile(path.name, document, (), path.parent)
     _check_version(file)
     buffers = tuple(
         _buffer(buffer, binary if i == 0 else None, path.parent, i)
         for i, buffer in enumerate(file.all("buffers"))
     )
-    return GltfFile(path.name, document, buffers)
+    return GltfFile(path.name, document, buffers, path.parent)
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes | None]:
@@ -150,7 +178,9 @@ def _chunks(data: bytes) -> tuple[bytes, bytes | None]:
 def _json(text: bytes) -> Mapping[str, Any]:
     try:
         document = json.loads(text.decode("utf-8-sig"))
-    except (ValueError, RecursionError) as error:
+    except RecursionError as error:
+        raise unreadable("its JSON is nested too deeply") from error
+    except ValueError as error:
         raise unreadable(f"its JSON cannot be read: {error}") from error
     if not isinstance(document, dict):
         raise unreadable("its JSON is not an object")
@@ -159,13 +189,15 @@ def _json(text: bytes) -> Mapping[str, Any]:
 
 def _check_version(file: GltfFile) -> None:
     asset = file.document.get("asset")
-    version = str(asset.get("version", "")) if isinstance(asset, dict) else ""
+    version = label(asset.get("version")) if isinstance(asset, dict) else ""
     if not version:
         raise unreadable("it has no `asset.version`: it is not glTF")
     if version.split(".")[0] != "2":
         raise BodyError("body-unsupported", f"it is glTF {version}; glTF 2.0 is read")
     required = file.document.get("extensionsRequired", [])
-    for extension in required if isinstance(required, list) else []:
+    if not isinstance(required, list) or not all(isinstance(name, str) for name in required):
+        raise unreadable("`extensionsRequired` is not a list of names")
+    for extension in required:
         if extension in COMPRESSED:
             raise BodyError(
                 "body-unsupported",
@@ -173,9 +205,10 @@ def _check_version(file: GltfFile) -> None:
                 help_="save it without compression, for example from Blender: in the glTF export, "
                 "leave Compression off",
             )
-        if extension not in READ:
+        if extension not in READ and not extension.startswith(DECORATING):
             raise BodyError(
-                "body-unsupported", f"it needs the glTF extension `{extension}`, which is not read"
+                "body-unsupported",
+                f"it needs the glTF extension `{label(extension)}`, which is not read",
             )
 
 
@@ -185,28 +218,39 @@ def _buffer(buffer: Mapping[str, Any], binary: bytes | None, folder: Path, index
         data = binary or b""
     elif not isinstance(uri, str):
         raise unreadable(f"the address of buffer {index} is not a text")
-    elif uri.startswith("data:"):
-        head, _, body = uri.partition(",")
-        try:
-            data = base64.b64decode(body, validate=True) if head.endswith("base64") else b""
-        except binascii.Error as error:
-            raise unreadable(f"buffer {index} is not sound base64") from error
     else:
-        data = _beside(folder, uri)
+        data = bytes_at(uri, folder, f"buffer {index}")
     if len(data) < length:
         raise unreadable(
-            f"buffer {index} should have {length} bytes and has {len(data)}",
+            f"buffer {index} should have {shown(length)} bytes and has {len(data)}",
             "the file was probably cut off",
         )
     return data[:length]
 
 
-def _beside(folder: Path, uri: str) -> bytes:
+def bytes_at(uri: str, folder: Path, what: str) -> bytes:
+    """Bytes that an address holds itself (`data:`), or of a file beside the .gltf.
+
+    Args: what: what they are, for messages. Raises: BodyError: they are not there.
+    """
+    if not uri.startswith("data:"):
+        return _beside(folder, uri, what)
+    head, _, body = uri.partition(",")
+    try:
+        if not head.endswith("base64"):
+            return unquote_to_bytes(body)
+        return base64.b64decode(unquote(body), validate=True)
+    except ValueError as error:
+        raise unreadable(f"{what} is not sound base64") from error
+
+
+def _beside(folder: Path, uri: str, what: str) -> bytes:
     """Read a file that lies beside the .gltf, and nowhere else."""
     place = Path(unquote(uri))
+    named = f"{what}, `{label(uri[:80])!a}`,".replace("`'", "`").replace("'`", "`")
     if "://" in uri or place.is_absolute() or ".." in place.parts:
-        raise unreadable(f"its buffer `{uri[:80]}` does not lie beside it")
+        raise unreadable(f"{named} does not lie beside it")
     try:
         return (folder / place).read_bytes()
-    except OSError as error:
-        raise unreadable(f"its buffer `{uri[:80]}` is not there") from error
+    except (OSError, ValueError) as error:
+        raise unreadable(f"{named} is not there") from error

@@ -25,11 +25,11 @@ from azee_rig.importing.bone_map import BONES, DIGITS, SIDES, BoneMap, check_bon
 from azee_rig.importing.container import GltfFile, read_gltf
 from azee_rig.importing.eyes import Ball, find_balls, usual_place
 from azee_rig.importing.face import FaceMap, map_face, pack_units
-from azee_rig.importing.fault import BodyError
+from azee_rig.importing.fault import BodyError, unreadable
 from azee_rig.importing.limbs import Limbs, build_limbs
 from azee_rig.importing.propose import propose
 from azee_rig.importing.reduced import Reduced, reduce_joints
-from azee_rig.importing.report import ImportReport
+from azee_rig.importing.report import SIDE_NAMES, ImportReport
 from azee_rig.importing.scene import SceneBody, read_scene
 from azee_rig.importing.skeleton_tree import Tree
 from azee_rig.importing.skin_of import ForeignSurface
@@ -44,6 +44,12 @@ Floats = NDArray[np.float64]
 DATA = Path(__file__).parents[1] / "data"
 MOST_JOINTS = 1024
 """Joints that a rig keeps; a body has some sixty."""
+SHORTEST_M = 1e-3
+"""A limb, and a last phalanx, that is shorter has no direction."""
+WILD_M = 10.0
+"""No morph target of a body, once it is as tall as a person, moves anything further."""
+ALIKE = 8.0
+"""How many times larger a skeleton may be than its mesh, or smaller."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +80,7 @@ def import_body(path: Path, name: str, bone_map: Path | None = None) -> Imported
     scene = read_scene(file)
     tree = Tree(scene.joints, scene.parents, scene.places)
     if given:
-        check_bone_map(given, scene.joints)
+        check_bone_map(given, tree)
     bones = _whole(given or _proposal(file, scene), tree)
     stand = stand_up(tree, bones, scene.vertices, exactly=scene.posed)
     return _Import(file, scene, tree, bones, stand, name).done()
@@ -127,6 +133,46 @@ class _Import:
         self.signer = load_rig("signer")
         self.triangles = scene.triangles
 
+    def _check(self, reduced: Reduced) -> None:
+        """Raise BodyError where a body's mesh and skeleton cannot belong together."""
+        used = np.unique(self.triangles)
+        flesh = float(np.ptp(self.vertices[used], axis=0).max())
+        bones = float(np.ptp(reduced.places, axis=0).max())
+        if not bones / ALIKE <= flesh <= bones * ALIKE:
+            raise BodyError(
+                "body-incomplete",
+                f"its mesh is {flesh / max(bones, 1e-9):.3g} times the size of its skeleton",
+                "they were probably saved in different units",
+                help_="apply the scale of both, and save it again",
+            )
+        wild = [
+            t.name
+            for t in self.scene.targets
+            if np.abs(self.stand.vectors(t.deltas)).max(initial=0.0) > WILD_M
+        ]
+        if wild:
+            raise unreadable(f"its morph target `{wild[0]}` moves the face by more than {WILD_M} m")
+        at = {bone: reduced.place(chain[0]) for bone, chain in self.bones.bones.items()}
+        for side in SIDES:
+            for bone, end in ((f"arm_{side}", f"f_arm_{side}"), (f"f_arm_{side}", f"palm_{side}")):
+                if np.linalg.norm(at[end] - at[bone]) < SHORTEST_M:
+                    raise BodyError(
+                        "body-incomplete",
+                        f"`{bone}` has no length: its joint lies where that of `{end}` does",
+                    )
+            limb = [
+                joint
+                for bone, chain in self.bones.bones.items()
+                for joint in chain
+                if f"{bone}_".find(f"_{side}_") > 0 and not bone.startswith(("clav", "eye"))
+            ]
+            if not reduced.held(limb).any():
+                raise BodyError(
+                    "body-incomplete",
+                    f"no skin hangs on the {SIDE_NAMES[side]} arm",
+                    "skin that is bound to a single joint does not move with the others",
+                )
+
     def done(self) -> Imported:
         reduced = reduce_joints(
             self.tree, self.bones, self.places, self.scene.influences, self.scene.weights
@@ -136,6 +182,7 @@ class _Import:
                 "body-unsupported",
                 f"its bones-map keeps {len(reduced.names)} joints; {MOST_JOINTS} are supported",
             )
+        self._check(reduced)
         reduced, eyes, found = self._eyes(reduced)
         anatomy = self._anatomy(reduced, eyes, found)
         names = coordinate_names(DATA / "coordinates.csv")
@@ -192,7 +239,14 @@ class _Import:
             for s in SIDES
         }
         index = {name: j for j, name in enumerate(self.tree.names)}
-        tips = {digit: self.places[index[joint]] for digit, joint in self.bones.tips.items()}
+        tips = {}
+        for digit, joint in self.bones.tips.items():
+            last = next(
+                (b[0] for k in (3, 2, 1) if (b := self.bones.bones.get(f"{digit}_{k}"))), None
+            )
+            place = self.places[index[joint]]
+            if last and np.linalg.norm(place - self.places[index[last]]) > SHORTEST_M:
+                tips[digit] = place
         model = Model.of(self.signer)
         return body_anatomy(reduced, self.bones, tips, middles, self.vertices, model)
 

@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_rig.importing.container import GltfFile
+from azee_rig.importing.container import GltfFile, label
 from azee_rig.importing.fault import unreadable
 from azee_rig.rotation import to_matrices
 
 Floats = NDArray[np.float64]
+FARTHEST = 1e15
+"""No number of a transform is larger."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,8 +59,11 @@ def read_nodes(file: GltfFile) -> Nodes:
     world = np.array(local)
     for node in order:
         if parents[node] >= 0:
-            world[node] = world[parents[node]] @ local[node]
-    names = tuple(str(row.get("name") or "") for row in rows)
+            with np.errstate(over="ignore", invalid="ignore"):
+                world[node] = world[parents[node]] @ local[node]
+    if not np.isfinite(world).all() or np.abs(world).max(initial=0.0) > FARTHEST:
+        raise unreadable("its nodes stand farther away than numbers reach")
+    names = tuple(label(row.get("name")) for row in rows)
     return Nodes(names, tuple(parents), order, local, world)
 
 
@@ -85,8 +90,8 @@ def _local(row: Mapping[str, Any], number: int) -> Floats:
     transform = np.eye(4)
     x, y, z, w = _numbers(row.get("rotation", (0, 0, 0, 1)), 4, number)
     length = np.sqrt(x * x + y * y + z * z + w * w)
-    if length < 1e-6:
-        raise unreadable(f"node {number} has a rotation of length zero")
+    if not 1e-6 < length < FARTHEST:
+        raise unreadable(f"node {number} has a rotation that is none")
     transform[:3, :3] = to_matrices(np.array([w, x, y, z]) / length)
     transform[:3, :3] *= _numbers(row.get("scale", (1, 1, 1)), 3, number)
     transform[:3, 3] = _numbers(row.get("translation", (0, 0, 0)), 3, number)
@@ -96,8 +101,8 @@ def _local(row: Mapping[str, Any], number: int) -> Floats:
 def _numbers(values: object, count: int, number: int) -> Floats:
     try:
         array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         array = np.empty(0)
-    if array.shape != (count,) or not np.isfinite(array).all():
+    if array.shape != (count,) or not (np.abs(array) < FARTHEST).all():
         raise unreadable(f"node {number} has a transform that is none")
     return array

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from azee_rig.importing.container import GltfFile
+from azee_rig.importing.container import GltfFile, label
 from azee_rig.importing.fault import BodyError
 from azee_rig.importing.surface_parts import Primitive
 from azee_rig.mesh import Part
@@ -33,7 +33,7 @@ def painted(file: GltfFile, primitives: Sequence[Primitive]) -> tuple[tuple[Part
     start = 0
     for i, primitive in enumerate(primitives):
         material = {} if primitive.material is None else file.one("materials", primitive.material)
-        name = str(material.get("name") or f"part {i + 1}")
+        name = label(material.get("name")) or f"part {i + 1}"
         while name in names:
             name = f"{name} {i + 1}"
         names.add(name)
@@ -56,7 +56,7 @@ def _look(look: Mapping[str, Any]) -> tuple[tuple[float, float, float, float], f
     try:
         r, g, b, a = (min(max(float(x), 0.0), 1.0) for x in factor)
         return (r, g, b, a), min(max(float(rough), 0.0), 1.0)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return WHITE, MATT
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.importing.bone_map import DIGITS, LEGS, SIDES, BoneMap
-from azee_rig.importing.names import Reading, read_name
+from azee_rig.importing.names import Reading, read_name, read_names
 from azee_rig.importing.shape import read_shape
 from azee_rig.importing.skeleton_tree import Tree
 
@@ -53,7 +53,7 @@ def _as(found: BoneMap, family: str) -> BoneMap:
 
 def _readings(tree: Tree, told: Mapping[str, int] | None) -> list[Reading]:
     """Read all names; where hands begin with `DEF-` only such count, the rest being controls."""
-    readings = [read_name(name) for name in tree.names]
+    readings = read_names(tree.names)
     deforming = [name.startswith("DEF-") for name in tree.names]
     if any(d and r.kind == "palm" for d, r in zip(deforming, readings, strict=True)):
         readings = [r if d else Reading() for d, r in zip(deforming, readings, strict=True)]
@@ -71,7 +71,7 @@ def _with_numbered_fingers(readings: list[Reading]) -> list[Reading]:
         return [Reading() if r.kind == "finger" else r for r in readings]
     first = int(numbers[0])
     return [
-        Reading("digit", r.side, DIGITS[int(r.digit) - first], r.end, r.twist)
+        Reading("digit", r.side, DIGITS[int(r.digit) - first], r.end, r.twist, r.metacarpal)
         if r.kind == "finger" and 0 <= int(r.digit) - first < len(DIGITS)
         else r
         for r in readings
@@ -154,6 +154,8 @@ def _trunk(
         return 0
     path = tree.path(marks["head"])[:-1]
     bones["head"] = [marks["head"]]
+    if not path:
+        return marks["head"]
     kinds = [readings[j].kind for j in path]
     top = path.index(chest) if chest in path else None
     neck = next((i for i, kind in enumerate(kinds) if kind == "neck"), None)

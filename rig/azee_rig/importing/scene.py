@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from azee_rig.importing.accessors import read_array
 from azee_rig.importing.container import GltfFile
 from azee_rig.importing.fault import BodyError, unreadable
-from azee_rig.importing.nodes import Nodes, read_nodes
+from azee_rig.importing.nodes import FARTHEST, Nodes, read_nodes
 from azee_rig.importing.paint import painted
 from azee_rig.importing.surface_parts import Primitive, read_primitives, stacked, target_names
 from azee_rig.mesh import Part
@@ -25,6 +25,8 @@ from azee_rig.mesh import Part
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+FLAT, NOTHING = 1e-6, 1e-12
+"""A space is flat where one scale is so much smaller than another, or all are next to nothing."""
 SAME_M = 1e-3
 """Joints of the nodes and of the binding are the same posture if no further apart, relative to
 the figure's size."""
@@ -129,7 +131,7 @@ def read_scene(file: GltfFile) -> SceneBody:
         if skin is not None:
             file.one("skins", skin)
             _add_skinned(found, file, nodes, skins[skin], file.one("meshes", mesh), mesh)
-    if not found.primitives:
+    if not sum(len(p.triangles) for p in found.primitives):
         raise BodyError("body-incomplete", "it has a skin, but no mesh of triangles bound to it")
     for node, mesh, skin in rows:
         if skin is None:
@@ -152,22 +154,35 @@ def _skin(file: GltfFile, nodes: Nodes, row: Mapping[str, Any], number: int) -> 
     inverse = inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1)
     try:
         bound = np.linalg.inv(inverse).astype(np.float64)
+        back = np.linalg.inv(bound)
     except np.linalg.LinAlgError as error:
         raise unreadable(f"skin {number} has a matrix that cannot be inverted") from error
-    if not np.isfinite(bound).all():
+    if not (np.abs(bound) < FARTHEST).all() or not np.allclose(back @ bound, np.eye(4), atol=1e-3):
         raise unreadable(f"skin {number} has a matrix that cannot be inverted")
     return _Skin(tuple(joints), bound)
+
+
+def _flat(transform: Floats) -> bool:
+    """Whether a transform takes a space to a plane or to a point, as scales of zero do."""
+    sizes = np.linalg.svd(transform[:3, :3], compute_uv=False)
+    return float(sizes[2]) < max(NOTHING, FLAT * float(sizes[0]))
 
 
 def _add_skinned(
     found: _Collected, file: GltfFile, nodes: Nodes, skin: _Skin, mesh: Mapping[str, Any], at: int
 ) -> None:
+    if len(set(skin.joints)) < len(skin.joints):
+        raise unreadable("a skin names a joint twice")
     known = next((k for k, joint in enumerate(skin.joints) if joint in found.bind), None)
     first = min(range(len(skin.joints)), key=lambda k: len(nodes.above(skin.joints[k])))
     if known is None:
         to_scene = nodes.world[skin.joints[first]] @ np.linalg.inv(skin.bound[first])
     else:
         to_scene = found.bind[skin.joints[known]] @ np.linalg.inv(skin.bound[known])
+    if _flat(to_scene):
+        raise BodyError(
+            "body-incomplete", "a node above its skeleton is scaled to nothing: it has no size"
+        )
     for joint, bound in zip(skin.joints, skin.bound, strict=True):
         found.bind.setdefault(joint, to_scene @ bound)
     numbers = np.array(skin.joints)
@@ -196,7 +211,7 @@ def _add_fixed(
     joint = next((n for n in (node, *nodes.above(node)) if n in found.bind), None)
     for primitive in read_primitives(file, mesh):
         count = len(primitive.vertices)
-        if joint is None:
+        if joint is None or _flat(nodes.world[node]) or _flat(nodes.world[joint]):
             found.loose += count
             continue
         to_scene = found.bind[joint] @ np.linalg.inv(nodes.world[joint]) @ nodes.world[node]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.importing.accessors import read_array
-from azee_rig.importing.container import COMPRESSED, GltfFile
+from azee_rig.importing.container import COMPRESSED, GltfFile, label, whole
 from azee_rig.importing.fault import BodyError, unreadable
 
 Floats = NDArray[np.float64]
@@ -18,6 +18,8 @@ Ints = NDArray[np.int64]
 
 POINTS, LINES = 0, (1, 2, 3)
 TRIANGLES, STRIP, FAN = 4, 5, 6
+FARTHEST = 1e15
+"""No coordinate of a vertex is larger."""
 SETS = 4
 """Sets of four influences that are read."""
 
@@ -61,7 +63,7 @@ def target_names(mesh: Mapping[str, Any]) -> list[str]:
         extras = owner.get("extras") if isinstance(owner, dict) else None
         names = extras.get("targetNames") if isinstance(extras, dict) else None
         if isinstance(names, list):
-            return [str(name) for name in names]
+            return [label(name) or f"target {i + 1}" for i, name in enumerate(names)]
     return []
 
 
@@ -79,10 +81,12 @@ def _primitive(file: GltfFile, row: Mapping[str, Any]) -> Primitive:
         raise unreadable("a mesh has no positions")
     vertices = read_array(file, attributes["POSITION"], "VEC3").astype(np.float64)
     count = len(vertices)
+    if np.abs(vertices).max(initial=0.0) > FARTHEST:
+        raise unreadable("a mesh has a vertex farther away than numbers reach")
     if row.get("indices") is None:
         corners = np.arange(count)
     else:
-        corners = read_array(file, row["indices"], "SCALAR")[:, 0].astype(np.int64)
+        corners = _whole(read_array(file, row["indices"], "SCALAR")[:, 0], "corners")
     if len(corners) and not 0 <= corners.min() <= corners.max() < count:
         raise unreadable(f"a triangle has a corner {corners.max()} of {count} vertices")
     joints, weights = _influences(file, attributes, count)
@@ -118,13 +122,20 @@ def _same_count(rows: NDArray[Any], count: int, what: str) -> NDArray[Any]:
     return rows
 
 
+def _whole(rows: NDArray[Any], what: str) -> Ints:
+    """Return whole numbers, which some files write as reals."""
+    if rows.dtype.kind == "f" and (np.abs(rows).max(initial=0.0) > 2.0**31 or (rows % 1.0).any()):
+        raise unreadable(f"a mesh has {what} that are no whole numbers")
+    return rows.astype(np.int64)
+
+
 def _influences(file: GltfFile, attributes: Mapping[str, Any], count: int) -> tuple[Ints, Floats]:
     joints, weights = [], []
     for i in range(SETS):
         if f"JOINTS_{i}" in attributes and f"WEIGHTS_{i}" in attributes:
             of = read_array(file, attributes[f"JOINTS_{i}"], "VEC4")
             by = read_array(file, attributes[f"WEIGHTS_{i}"], "VEC4")
-            joints.append(_same_count(of, count, "joints").astype(np.int64))
+            joints.append(_whole(_same_count(of, count, "joints"), "joints"))
             weights.append(np.maximum(_same_count(by, count, "weights").astype(np.float64), 0.0))
     if not joints:
         return np.zeros((count, 0), np.int64), np.zeros((count, 0))
@@ -156,10 +167,12 @@ def _texture(
     info = look.get("baseColorTexture") if isinstance(look, dict) else None
     if not isinstance(info, dict) or not isinstance(info.get("index"), int):
         return None
-    name = f"TEXCOORD_{info.get('texCoord', 0)}"
+    name = f"TEXCOORD_{whole(info, 'texCoord', 0)}"
     if name not in attributes:
         return None
     at = read_array(file, attributes[name], "VEC2").astype(np.float64)
+    if np.abs(at).max(initial=0.0) > FARTHEST:
+        raise unreadable("a mesh has a texture coordinate farther away than numbers reach")
     return info["index"], _same_count(at, count, "texture coordinates")
 
 

@@ -76,6 +76,8 @@ def stand_up(tree: Tree, bones: BoneMap, vertices: Floats, *, exactly: bool) -> 
     if angle > 0.1:
         notes.append(f"turned by {angle:.0f}° to stand upright and look forward")
     height = float(np.ptp(vertices @ turn[1]))
+    if not height > 0.0:
+        raise BodyError("body-incomplete", "its mesh has no height: all of it lies in one plane")
     scale = _scale(height, notes)
     turn = scale * turn
     moved = vertices @ turn.T

@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from azee_rig.importing.container import GltfFile
+from azee_rig.importing.container import GltfFile, label
 from azee_rig.importing.scene import Target
 
 PERCENT = 100.0
 """Weights of VRM 0.x count to this."""
+MOST_WEIGHT = 100.0
+"""A bind with a larger weight is none."""
 OLD_WORDS = {
     "a": "aa",
     "i": "ih",
@@ -35,12 +37,16 @@ def humanoid(file: GltfFile) -> dict[str, int]:
         old = _extension(file, "VRM").get("humanoid", {})
         listed = old.get("humanBones", []) if isinstance(old, dict) else []
         rows = [
-            (str(row.get("bone")), row.get("node"))
+            (label(row.get("bone")), row.get("node"))
             for row in (listed if isinstance(listed, list) else [])
             if isinstance(row, dict)
         ]
     count = len(file.all("nodes"))
-    return {name: node for name, node in rows if isinstance(node, int) and 0 <= node < count}
+    return {
+        label(name): node
+        for name, node in rows
+        if isinstance(node, int) and not isinstance(node, bool) and 0 <= node < count
+    }
 
 
 def expressions(file: GltfFile, targets: Sequence[Target]) -> dict[str, dict[str, float]]:
@@ -68,9 +74,9 @@ def _new(file: GltfFile) -> Iterator[tuple[str, int, int, float]]:
 def _old(file: GltfFile) -> Iterator[tuple[str, int, int, float]]:
     master = _extension(file, "VRM").get("blendShapeMaster", {})
     for row in _list(master, "blendShapeGroups"):
-        word = str(row.get("presetName") or "").lower()
+        word = label(row.get("presetName")).lower()
         if word in ("", "unknown"):
-            word = str(row.get("name") or "")
+            word = label(row.get("name"))
         for bind in _list(row, "binds"):
             yield from _bind(OLD_WORDS.get(word, word), bind, PERCENT)
 
@@ -79,7 +85,8 @@ def _bind(
     word: str, bind: Mapping[str, Any], whole: float
 ) -> Iterator[tuple[str, int, int, float]]:
     mesh, number, weight = bind.get("mesh"), bind.get("index"), bind.get("weight", whole)
-    if isinstance(mesh, int) and isinstance(number, int) and isinstance(weight, int | float):
+    sound = isinstance(weight, int | float) and abs(weight) <= MOST_WEIGHT * whole
+    if isinstance(mesh, int) and isinstance(number, int) and sound:
         yield word, mesh, number, float(weight) / whole
 
 

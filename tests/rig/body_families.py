@@ -1,0 +1,404 @@
+"""Small skinned bodies as GLB files, under the joint names of many makers.
+
+All are the body that ships as `game`, its mesh thinned out, in another posture, another unit and
+other axes, on the joints that a family has. What the importer must find is known: `expected`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
+
+import numpy as np
+from glb_file import GlbFile
+from numpy.typing import NDArray
+
+from azee.export.formats.gltf.document import Document
+from azee_rig.load import load_rig
+from azee_rig.rig import Rig
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+DIGITS = {"thumb": "thumb", "index": "index", "middle": "middle", "ring": "ring", "little": "pinky"}
+SIDES = {"L": "l", "R": "r"}
+CELL_M, FINE_M = 0.03, 0.009
+"""Vertices within such a cell are one: on the body, and on hands and head."""
+EYE_PART = "eyes"
+
+
+@dataclass(frozen=True)
+class Family:
+    """How a maker calls the joints.
+
+    back: of the spine, upwards. neck: likewise. arms: clavicle, upper arm, forearm and hand with
+    {S} for the side. legs: thigh, calf, foot. digit: with {S}, {D} and {k}, or a list of three.
+    digits: words for the five digits. eye: with {S}. sides: words for left and right.
+    """
+
+    root: str
+    back: Sequence[str]
+    neck: Sequence[str]
+    head: str
+    arms: Sequence[str]
+    legs: Sequence[str]
+    digit: Sequence[str]
+    digits: Sequence[str] = ("Thumb", "Index", "Middle", "Ring", "Pinky")
+    eye: str = ""
+    sides: Sequence[str] = ("Left", "Right")
+    declared: Mapping[str, str] = field(default_factory=dict)
+
+
+def _mixamo(prefix: str = "", **other: Any) -> Family:
+    return Family(
+        **{
+            "root": f"{prefix}Hips",
+            "back": [f"{prefix}Spine", f"{prefix}Spine1", f"{prefix}Spine2"],
+            "neck": [f"{prefix}Neck"],
+            "head": f"{prefix}Head",
+            "arms": [f"{prefix}{{S}}{j}" for j in ("Shoulder", "Arm", "ForeArm", "Hand")],
+            "legs": [f"{prefix}{{S}}{j}" for j in ("UpLeg", "Leg", "Foot")],
+            "digit": [f"{prefix}{{S}}Hand{{D}}{k}" for k in (1, 2, 3)],
+            **other,
+        }
+    )
+
+
+_VROID = Family(
+    root="J_Bip_C_Hips",
+    back=["J_Bip_C_Spine", "J_Bip_C_Chest", "J_Bip_C_UpperChest"],
+    neck=["J_Bip_C_Neck"],
+    head="J_Bip_C_Head",
+    arms=[f"J_Bip_{{S}}_{j}" for j in ("Shoulder", "UpperArm", "LowerArm", "Hand")],
+    legs=[f"J_Bip_{{S}}_{j}" for j in ("UpperLeg", "LowerLeg", "Foot")],
+    digit=[f"J_Bip_{{S}}_{{D}}{k}" for k in (1, 2, 3)],
+    digits=("Thumb", "Index", "Middle", "Ring", "Little"),
+    eye="J_Adj_{S}_FaceEye",
+    sides=("L", "R"),
+)
+FAMILIES: Mapping[str, Family] = {
+    "mixamo": _mixamo("mixamorig:", eye="mixamorig:{S}Eye"),
+    "ready-player-me": _mixamo(eye="{S}Eye"),
+    "vroid": _VROID,
+    "makehuman": Family(
+        root="root",
+        back=["spine05", "spine04", "spine03", "spine02", "spine01"],
+        neck=["neck01", "neck02", "neck03"],
+        head="head",
+        arms=[f"{j}.{{S}}" for j in ("clavicle", "upperarm01", "lowerarm01", "wrist")],
+        legs=[f"{j}.{{S}}" for j in ("upperleg01", "lowerleg01", "foot")],
+        digit=[f"finger{{D}}-{k}.{{S}}" for k in (1, 2, 3)],
+        digits=("1", "2", "3", "4", "5"),
+        eye="eye.{S}",
+        sides=("L", "R"),
+    ),
+    "motive": Family(
+        root="Hip",
+        back=["Ab", "Chest"],
+        neck=["Neck"],
+        head="Head",
+        arms=["{S}Shoulder", "{S}UArm", "{S}FArm", "{S}Hand"],
+        legs=["{S}Thigh", "{S}Shin", "{S}Foot"],
+        digit=[f"{{S}}{{D}}{k}" for k in (1, 2, 3)],
+        sides=("L", "R"),
+    ),
+    "xsens": Family(
+        root="Pelvis",
+        back=["L5", "L3", "T12", "T8"],
+        neck=["Neck"],
+        head="Head",
+        arms=["{S}Shoulder", "{S}UpperArm", "{S}Forearm", "{S}Hand"],
+        legs=["{S}UpperLeg", "{S}LowerLeg", "{S}Foot"],
+        digit=["{S}{D}MC|{S}{D}PP", "{S}{D}PP|{S}{D}MP", "{S}{D}DP"],
+        digits=("First", "Second", "Third", "Fourth", "Fifth"),
+    ),
+    "perception-neuron": _mixamo(
+        neck=["Neck", "Neck1"], digits=("Thumb", "Index", "Middle", "Ring", "Pinky")
+    ),
+    "rokoko": _mixamo(
+        back=["Spine1", "Spine2", "Spine3", "Spine4"],
+        legs=["{S}Thigh", "{S}Shin", "{S}Foot"],
+        digit=[
+            "{S}Finger{D}Metacarpal|{S}Finger{D}Proximal",
+            "{S}Finger{D}Proximal|{S}Finger{D}Medial",
+            "{S}Finger{D}Distal",
+        ],
+        digits=("1", "2", "3", "4", "5"),
+    ),
+    "smpl-x": Family(
+        root="pelvis",
+        back=["spine1", "spine2", "spine3"],
+        neck=["neck"],
+        head="head",
+        arms=["{S}_collar", "{S}_shoulder", "{S}_elbow", "{S}_wrist"],
+        legs=["{S}_hip", "{S}_knee", "{S}_ankle"],
+        digit=[f"{{S}}_{{D}}{k}" for k in (1, 2, 3)],
+        digits=("thumb", "index", "middle", "ring", "pinky"),
+        eye="{S}_eye_smplhf",
+        sides=("left", "right"),
+    ),
+    "named-after-somebody": Family(
+        root="Anna_pelvis",
+        back=["Anna_spine01", "Anna_spine02", "Anna_spine03"],
+        neck=["Anna_neck"],
+        head="Anna_head",
+        arms=[f"Anna_{j}_{{S}}" for j in ("clavicle", "upperarm01", "lowerarm01", "hand")],
+        legs=[f"Anna_{j}_{{S}}" for j in ("thigh", "calf", "foot")],
+        digit=[f"Anna_{{D}}{k}_{{S}}" for k in (1, 2, 3)],
+        digits=("thumb", "index", "middle", "ring", "pinky"),
+        eye="Anna_eye_{S}",
+        sides=("L", "R"),
+    ),
+}
+VRM_WORDS = {
+    "palm": "Hand",
+    "arm": "UpperArm",
+    "f_arm": "LowerArm",
+    "clav": "Shoulder",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A body on its way into a file: joints with parents and places, vertices with weights (N, J).
+
+    bones: what each joint is, by AZee bone. units: rows and deltas of morph targets, by name.
+    """
+
+    names: tuple[str, ...]
+    parents: tuple[int, ...]
+    places: Floats
+    vertices: Floats
+    triangles: Ints
+    weights: Floats
+    bones: Mapping[str, tuple[str, ...]]
+    parts: Sequence[tuple[str, int, int]]
+    units: Mapping[str, tuple[Ints, Floats]]
+
+    def file(self, *, unit: float = 1.0, up: str = "y", units: Mapping[str, str] = {}) -> GlbFile:
+        """Write it. units: names of the file's morph targets, with the unit that each is."""
+        turn = np.eye(3) if up == "y" else np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+        turn = turn / unit
+        document = Document("families")
+        places, vertices = self.places @ turn.T, self.vertices @ turn.T
+        children: list[list[int]] = [[] for _ in self.names]
+        for joint, parent in enumerate(self.parents):
+            if parent >= 0:
+                children[parent].append(joint)
+        for joint, name in enumerate(self.names):
+            parent = self.parents[joint]
+            offset = places[joint] - (places[parent] if parent >= 0 else 0.0)
+            document.add(
+                "nodes", name=name, translation=offset.tolist(), children=children[joint] or None
+            )
+        inverse = np.tile(np.eye(4, dtype=np.float32), (len(places), 1, 1))
+        inverse[:, 3, :3] = -places
+        skin = document.add(
+            "skins",
+            joints=list(range(len(places))),
+            inverseBindMatrices=document.accessor(inverse.reshape(-1, 16)),
+        )
+        order = np.argsort(-self.weights, axis=1, kind="stable")[:, :4]
+        weights = np.take_along_axis(self.weights, order, axis=1)
+        attributes = {
+            "POSITION": document.accessor(vertices.astype(np.float32), bounds=True),
+            "JOINTS_0": document.accessor(order.astype(np.uint16)),
+            "WEIGHTS_0": document.accessor(
+                (weights / weights.sum(axis=1, keepdims=True)).astype(np.float32)
+            ),
+        }
+        targets = []
+        for target in units.values():
+            rows, deltas = self.units[target]
+            moved = np.zeros((len(vertices), 3), np.float32)
+            moved[rows] = deltas @ turn.T
+            targets.append({"POSITION": document.accessor(moved, bounds=True)})
+        primitives = [
+            {
+                "attributes": attributes,
+                "indices": document.accessor(self.triangles[start:stop].ravel().astype(np.uint32)),
+                "material": document.add("materials", name=name),
+                **({"targets": targets} if targets else {}),
+            }
+            for name, start, stop in self.parts
+            if stop > start
+        ]
+        extras = {"targetNames": list(units)} if units else None
+        mesh = document.add("meshes", primitives=primitives, extras=extras)
+        node = document.add("nodes", name="Body", mesh=mesh, skin=skin)
+        top = {"scene": 0, "scenes": [{"nodes": [self.parents.index(-1), node]}]}
+        data = document.to_glb(**top)
+        return GlbFile.of(data)
+
+
+@cache
+def _thinned() -> tuple[Rig, Ints, Ints, Sequence[tuple[str, int, int]]]:
+    """Return the body, the vertices that are kept, and triangles on these, part after part."""
+    rig = load_rig("game")
+    mesh = rig.mesh
+    joints = rig.skeleton.names
+    fine = [j for j, name in enumerate(joints) if _is_fine(name)]
+    is_fine = mesh.dense_weights[:, fine].sum(axis=1) > 0.5
+    cell = np.where(is_fine, FINE_M, CELL_M)
+    of_part = np.zeros(len(mesh.vertices))
+    for number, part in enumerate(mesh.parts):
+        of_part[mesh.triangles[part.start : part.stop]] = number
+    key = np.column_stack([np.round(mesh.vertices / cell[:, None]), is_fine, of_part])
+    _, first, cluster = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    triangles = cluster.ravel()[mesh.triangles]
+    sound = (
+        (triangles[:, 0] != triangles[:, 1])
+        & (triangles[:, 1] != triangles[:, 2])
+        & (triangles[:, 2] != triangles[:, 0])
+    )
+    rows: list[Ints] = []
+    parts: list[tuple[str, int, int]] = []
+    for part in mesh.parts:
+        kept = triangles[part.start : part.stop][sound[part.start : part.stop]]
+        start = sum(len(row) for row in rows)
+        parts.append((part.name, start, start + len(kept)))
+        rows.append(kept)
+    return rig, first, np.vstack(rows), parts
+
+
+def _is_fine(joint: str) -> bool:
+    return joint in ("head", "eye_L", "eye_R") or joint.startswith(
+        ("hand", "thumb", "index", "middle", "ring", "pinky")
+    )
+
+
+def make_body(
+    family: Family,
+    *,
+    fingers: bool = True,
+    eyes: bool = True,
+    pose: str = "t",
+    prefix: str = "",
+) -> Body:
+    """Make the body of a family. pose: `t` or `a`. prefix: before every joint's name."""
+    rig, kept, triangles, parts = _thinned()
+    q = np.array(rig.coordinates.bind)
+    if pose == "a":
+        arms = [i for i, n in enumerate(rig.coordinates.names) if n.startswith("arm_")]
+        q[arms] = 0.5 * (q[arms] + rig.coordinates.idle[arms])
+    posture = rig.pose(q)
+    at = dict(zip(rig.skeleton.names, rig.joint_positions(posture), strict=True))
+    vertices = rig.skin(posture)[kept]
+    names: list[str] = []
+    parents: list[int] = []
+    places: list[Floats] = []
+    own: dict[str, list[tuple[str, Floats]]] = {}
+    bones: dict[str, tuple[str, ...]] = {}
+
+    def chain(source: Sequence[str], called: Sequence[str], parent: str, end: str = "") -> str:
+        """Put joints along some of the body's, evenly; return the last one's name."""
+        line = np.array([at[s] for s in source] + ([at[end]] if end else []))
+        steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
+        along = np.concatenate([[0.0], np.cumsum(steps)])
+        goals = (
+            along if len(source) == len(called) else np.linspace(0.0, along[-1], len(called) + 1)
+        )
+        for name, goal in zip(called, goals, strict=False):
+            place = np.array([np.interp(goal, along, line[:, k]) for k in range(3)])
+            names.append(prefix + name)
+            parents.append(names.index(parent) if parent else -1)
+            places.append(place)
+            parent = prefix + name
+        made = [(prefix + name, places[names.index(prefix + name)]) for name in called]
+        for joint in source:
+            own[joint] = made
+        return parent
+
+    root = chain(["pelvis"], [family.root], "")
+    chest = chain(["spine_01", "spine_02", "spine_03"], family.back, root, "neck_01")
+    neck = chain(["neck_01"], family.neck, chest, "head")
+    head = chain(["head"], [family.head], neck)
+    bones["neck"], bones["head"] = tuple(prefix + n for n in family.neck), (head,)
+    for s, word in zip("LR", family.sides, strict=True):
+        side = SIDES[s]
+        up = chest
+        for bone, joint, name in zip(
+            ("clav", "arm", "f_arm", "palm"),
+            ("clavicle", "upperarm", "lowerarm", "hand"),
+            family.arms,
+            strict=True,
+        ):
+            up = chain([f"{joint}_{side}"], [name.format(S=word)], up)
+            bones[f"{bone}_{s}"] = (up,)
+        hand = up
+        for (digit, joint), called in zip(DIGITS.items(), family.digits, strict=True):
+            last = hand
+            for k in (1, 2, 3):
+                source = f"{joint}_{k:02}_{side}"
+                if not fingers:
+                    own[source] = own[f"hand_{side}"]
+                    continue
+                form = family.digit[k - 1].split("|")[0 if digit == "thumb" else -1]
+                last = chain([source], [form.format(S=word, D=called)], last)
+                bones[f"{digit}_{s}_{k}"] = (last,)
+        up = root
+        for joint, name in zip(("thigh", "calf", "foot"), family.legs, strict=True):
+            up = chain([f"{joint}_{side}"], [name.format(S=word)], up)
+        if eyes and family.eye:
+            bones[f"eye_{s}"] = (chain([f"eye_{s}"], [family.eye.format(S=word)], head),)
+        else:
+            own[f"eye_{s}"] = own["head"]
+    weights = np.zeros((len(vertices), len(names)))
+    dense = rig.mesh.dense_weights[kept]
+    for j, joint in enumerate(rig.skeleton.names):
+        made = own[joint]
+        away = [np.linalg.norm(vertices - place, axis=1) for _, place in made]
+        nearest = np.argmin(away, axis=0)
+        for i, (name, _) in enumerate(made):
+            weights[:, names.index(name)] += np.where(nearest == i, dense[:, j], 0.0)
+    number = np.full(len(rig.mesh.vertices), -1)
+    number[kept] = np.arange(len(kept))
+    units = {}
+    for unit in rig.units:
+        rows, deltas = rig.mesh.unit(unit)
+        there = number[rows] >= 0
+        units[unit] = (number[rows][there], deltas[there])
+    return Body(
+        tuple(names),
+        tuple(parents),
+        np.array(places),
+        vertices,
+        triangles,
+        weights,
+        bones,
+        parts,
+        units,
+    )
+
+
+def declare(file: GlbFile, body: Body, version: int) -> GlbFile:
+    """Declare a body's bones as a VRM of version 0 or 1 does, and take the names away."""
+    number = {node.get("name"): i for i, node in enumerate(file.nodes)}
+    words = {"hips": body.names[0], "spine": body.names[1], "chest": body.names[2]}
+    words |= {"upperChest": body.names[3], "neck": body.bones["neck"][0]}
+    words["head"] = body.bones["head"][0]
+    thumbs = ("Proximal", "Intermediate", "Distal")
+    for s, side in (("L", "left"), ("R", "right")):
+        words |= {f"{side}{word}": body.bones[f"{b}_{s}"][0] for b, word in VRM_WORDS.items()}
+        if f"eye_{s}" in body.bones:
+            words[f"{side}Eye"] = body.bones[f"eye_{s}"][0]
+        for digit in DIGITS:
+            if f"{digit}_{s}_1" in body.bones:
+                parts = thumbs
+                if digit == "thumb" and version == 1:
+                    parts = ("Metacarpal", "Proximal", "Distal")
+                for k, part in enumerate(parts, 1):
+                    words[f"{side}{digit.title()}{part}"] = body.bones[f"{digit}_{s}_{k}"][0]
+    if version == 1:
+        bones: Any = {word: {"node": number[name]} for word, name in words.items()}
+        extension: dict[str, Any] = {
+            "VRMC_vrm": {"specVersion": "1.0", "humanoid": {"humanBones": bones}}
+        }
+    else:
+        bones = [{"bone": word, "node": number[name]} for word, name in words.items()]
+        extension = {"VRM": {"specVersion": "0.0", "humanoid": {"humanBones": bones}}}
+    file.document["extensions"] = extension
+    file.document["extensionsUsed"] = [*extension]
+    return file

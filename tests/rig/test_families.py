@@ -1,0 +1,85 @@
+"""Bodies of many makers: their joints are told right, whatever their posture, unit and axes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from body_families import FAMILIES, Body, Family, declare, make_body
+
+from azee_rig.importing.bone_map import BONES
+from azee_rig.importing.importer import import_body, propose_bones
+from azee_rig.importing.names import Reading, read_name, read_names
+
+POSES = [("t", "y", 1.0), ("a", "z", 0.01)]
+"""Posture, up axis and unit in metres: in pairs, so that each value is met with every family."""
+
+
+def _assert_found(body: Body, path: Path, family: str = "names") -> None:
+    found = propose_bones(path)
+    assert found.family == family
+    for bone, chain in body.bones.items():
+        assert found.bones.get(bone) == chain, bone
+    back = found.bones.get("back_1", ()) + found.bones["back_2"]
+    assert back == body.names[1 : 1 + len(back)]
+    assert found.root == body.names[0]
+    extra = set(found.bones) - set(body.bones) - {"back_1", "back_2"}
+    assert not extra
+    assert len(found.kept) == 6
+
+
+@pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES)
+def test_every_joint_is_told_by_its_name(family: Family, tmp_path: Path) -> None:
+    for pose, up, unit in POSES:
+        for fingers in (True, False):
+            body = make_body(family, fingers=fingers, eyes=fingers, pose=pose)
+            path = body.file(unit=unit, up=up).write(tmp_path / "body.glb")
+            _assert_found(body, path)
+
+
+@pytest.mark.parametrize("version", [0, 1])
+def test_a_vrm_tells_its_joints_itself(version: int, tmp_path: Path) -> None:
+    for fingers in (True, False):
+        body = make_body(FAMILIES["vroid"], fingers=fingers)
+        file = declare(body.file(), body, version)
+        number = {n: i for i, n in enumerate(body.names)}
+        for node in file.nodes:
+            if node["name"] in number:
+                node["name"] = f"joint {number[node['name']]}"
+        found = propose_bones(file.write(tmp_path / "body.vrm"))
+        assert found.family == "VRM"
+        for bone, chain in body.bones.items():
+            assert found.bones.get(bone) == tuple(f"joint {number[j]}" for j in chain), bone
+
+
+@pytest.mark.parametrize("prefix", ["Anna_", "R2D2_", "Hero 01 ", "npc.Hair.", "Hand_", "cloth"])
+@pytest.mark.parametrize("name", ["mixamo", "motive", "makehuman", "smpl-x"])
+def test_prefixes_of_any_kind_are_taken_off(name: str, prefix: str, tmp_path: Path) -> None:
+    body = make_body(FAMILIES[name], prefix=prefix if name != "mixamo" else f"{prefix}:")
+    _assert_found(body, body.file().write(tmp_path / "body.glb"))
+
+
+def test_a_word_that_few_joints_share_is_no_prefix() -> None:
+    names = ["Hips", "Spine", "Neck", "Head", "Hat_Head", "LeftArm", "LeftForeArm", "LeftHand"]
+    readings = read_names(names)
+    assert readings == [read_name(name) for name in names]
+    assert readings[4] == Reading("", "", "")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FAMILIES)
+def test_bodies_of_every_family_are_taken_in(name: str, tmp_path: Path) -> None:
+    lengths, palms = [], []
+    for pose, up, unit in POSES:
+        body = make_body(FAMILIES[name], pose=pose)
+        path = body.file(unit=unit, up=up, units={"jawOpen": "jawOpen"}).write(tmp_path / "b.glb")
+        made = import_body(path, name)
+        assert made.report.doubts == ()
+        assert made.report.lost_sites == ()
+        assert set(made.rig.bones) == set(BONES)
+        lengths.append(made.rig.landmarks.arm_m)
+        frames = made.rig.chain.frames(made.rig.coordinates.idle)
+        palms.append(frames.positions[made.rig.bones["palm_L"].node])
+    assert lengths[0] == pytest.approx(lengths[1], abs=1e-5)
+    assert np.linalg.norm(palms[0] - palms[1]) < 0.03

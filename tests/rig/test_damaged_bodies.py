@@ -91,6 +91,16 @@ def _required(value: object) -> Change:
     return _put(value, "extensionsRequired")
 
 
+def _needing(extension: str, *path: str | int) -> Change:
+    """Require an extension, and put it on something."""
+
+    def change(file: GlbFile) -> None:
+        _required([extension])(file)
+        _put({extension: {}}, *path, "extensions")(file)
+
+    return change
+
+
 def _forearm_at_wrist(file: GlbFile) -> None:
     number = {node.get("name"): i for i, node in enumerate(file.nodes)}
     file.nodes[number["LeftHand"]]["translation"] = [0, 0, 0]
@@ -109,8 +119,9 @@ def _forearm_at_wrist(file: GlbFile) -> None:
         (_required([{}]), "body-unreadable", "`extensionsRequired` is not a list of names"),
         (_required("KHR_mesh_quantization"), "body-unreadable", "`extensionsRequired`"),
         (_required([7]), "body-unreadable", "`extensionsRequired`"),
-        (_required(["XX_\ud800"]), "body-unsupported", "which is not read"),
-        (_required(["EXT_mesh_gpu_instancing"]), "body-unsupported", "EXT_mesh_gpu_instancing"),
+        (_needing("XX_\ud800", "skins", 0), "body-unsupported", "which is not read"),
+        (_needing("XX_shape", "nodes", 1), "body-unsupported", "`XX_shape`"),
+        (_needing("XX_shape", "meshes", 0, "primitives", 0), "body-unsupported", "`XX_shape`"),
         (_put(MANY_DIGITS, "nodes", 3, "translation", 1), "body-unreadable", "node 3"),
         (_put(1e200, "nodes", 3, "translation", 1), "body-unreadable", "node 3"),
         (_put([0, 0, 0, 0], "nodes", 3, "rotation"), "body-unreadable", "rotation that is none"),

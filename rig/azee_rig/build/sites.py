@@ -17,7 +17,7 @@ hit: the first or the last point met. on: which triangles count.
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -31,6 +31,8 @@ from azee_rig.rig import BoneNodes, RigSite
 
 Floats = NDArray[np.float64]
 DIGIT = {"T": "thumb", "I": "index", "M": "middle", "R": "ring", "L": "little"}
+BESIDE = 0.75
+"""How far beside the skin a ray may pass, in lengths of the bone or distances between the eyes."""
 AXIAL = ("back", "neck", "head", "eye", "clav")
 
 
@@ -87,6 +89,34 @@ def _written_out(row: Mapping[str, str], letter: str, k: str, side: str) -> Site
     )
 
 
+@dataclass(frozen=True, slots=True)
+class FaceShape:
+    """How a face is shaped, counted in distances between the eyes, as shares of the signer's.
+
+    out: half its width. up, down: from the eyes to the crown and to the chin. ahead, back: from
+    the eyes to the tip of the nose and to the back of the head. deep: how far the joints of the
+    eyes lie behind the eyes, in distances between them.
+    """
+
+    out: float = 1.0
+    up: float = 1.0
+    down: float = 1.0
+    ahead: float = 1.0
+    back: float = 1.0
+    deep: float = 0.0
+
+    def shaped(self, shift: Sequence[float]) -> Floats:
+        """Return a shift (3,) of the signer's as it is on this face."""
+        x, y, z = shift
+        return np.array(
+            [
+                x * self.out,
+                y * (self.up if y > 0.0 else self.down),
+                z * (self.ahead if z > 0.0 else self.back) + self.deep,
+            ]
+        )
+
+
 @dataclass(frozen=True, eq=False)
 class SitePlacer:
     """Everything a rule is read against: the body in the mesh's own posture."""
@@ -97,6 +127,7 @@ class SitePlacer:
     nodes: tuple[str, ...]
     bones: Mapping[str, BoneNodes]
     joints: Mapping[str, tuple[str, ...]]
+    face: FaceShape = FaceShape()
 
     def place(self, rule: SiteRule) -> RigSite:
         """Cast the rule's ray. Raises ValueError, with the site's name, when it meets nothing."""
@@ -113,13 +144,30 @@ class SitePlacer:
         return RigSite(rule.name, rule.bone, node, R.T @ (point - origin), R.T @ normal)
 
     def place_or_near(self, rule: SiteRule) -> RigSite | None:
-        """Place a site; where its own part is not met, on what is; None if nothing is met."""
-        for on in (rule.on, "head" if rule.bone == "head" else "all"):
+        """Place a site; where its own part is not met, on what is, else where its ray passes by.
+
+        None if nothing is near.
+        """
+        wider = "head" if rule.bone == "head" else "all"
+        for on in (rule.on, wider):
             try:
                 return self.place(replace(rule, on=on))
             except ValueError:
                 continue
-        return None
+        return self._beside(rule) or self._beside(replace(rule, on=wider))
+
+    def _beside(self, rule: SiteRule) -> RigSite | None:
+        """Place a site on the skin that its ray passes nearest to."""
+        node, axes = self._node(rule), self._axes(rule)
+        R, origin = self.frames.rotations[node], self.frames.positions[node]
+        reach = BESIDE * self._lengths(rule)["eyes" if rule.bone == "head" else "bone"]
+        found = self.surface.passed(
+            self._start(rule, axes), axes @ rule.toward, self._allowed(rule), reach
+        )
+        if found is None:
+            return None
+        point, normal = found
+        return RigSite(rule.name, rule.bone, node, R.T @ (point - origin), R.T @ normal)
 
     def _node(self, rule: SiteRule) -> int:
         named = self.bones.get(rule.node)
@@ -133,23 +181,29 @@ class SitePlacer:
         R = self.frames.rotations[self._node(rule)]
         return np.asarray(R * (-sign, 1.0, 1.0))
 
-    def _start(self, rule: SiteRule, axes: Floats) -> Floats:
+    def _lengths(self, rule: SiteRule) -> Mapping[str, float]:
+        """Units that a rule's shift may be counted in, metres."""
         eyes = [self.anatomy.origin(f"eye_{s}") for s in SIDES]
         shoulders = [self.anatomy.origin(f"arm_{s}") for s in SIDES]
-        lengths = {
+        ends = [self._joint(rule.start), self._joint(rule.end)] if rule.end else eyes
+        return {
             "eyes": _distance(*eyes),
             "shoulders": _distance(*shoulders) / 2.0,
-            "bone": 0.0,
+            "bone": _distance(*ends),
         }
+
+    def _start(self, rule: SiteRule, axes: Floats) -> Floats:
+        lengths = self._lengths(rule)
+        shift = np.array(rule.shift)
         if rule.start == "eyes":
-            start = (eyes[0] + eyes[1]) / 2.0
+            start = (self.anatomy.origin("eye_L") + self.anatomy.origin("eye_R")) / 2.0
+            shift = self.face.shaped(rule.shift)
         elif rule.end:
             near, far = self._joint(rule.start), self._joint(rule.end)
             start = near + rule.at * (far - near)
-            lengths["bone"] = _distance(near, far)
         else:
             start = self._joint(rule.start)
-        return np.asarray(start + axes @ rule.shift * lengths[rule.unit])
+        return np.asarray(start + axes @ shift * lengths[rule.unit])
 
     def _joint(self, name: str) -> Floats:
         if name.startswith("tip "):

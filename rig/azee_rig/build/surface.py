@@ -11,7 +11,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from azee_rig.mesh import BodyMesh
-from azee_rig.nearest import barycentric
+from azee_rig.nearest import barycentric, closest_on_triangles
 from azee_rig.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -65,3 +65,31 @@ class Surface:
         shares = barycentric(self.mesh.vertices[corners][None], places[found][None])[0]
         normal = shares @ self.mesh.normals[corners]
         return places[found], np.asarray(normal / np.linalg.norm(normal))
+
+    def passed(
+        self, start: Floats, toward: Floats, allowed: Mask, reach: float
+    ) -> tuple[Floats, Floats] | None:
+        """Return the point of allowed triangles that a ray passes nearest to, and the normal there.
+
+        None if it passes by all of them at more than `reach`, metres.
+        """
+        direction = toward / np.linalg.norm(toward)
+        rows = np.flatnonzero(allowed)
+        if not len(rows):
+            return None
+        corners = self.mesh.vertices[self.mesh.triangles[rows]]
+        middles = corners.mean(axis=1) - start
+        along = np.maximum(middles @ direction, 0.0)
+        away = np.linalg.norm(middles - along[:, None] * direction, axis=1)
+        aim = start + along[away.argmin()] * direction
+        on = closest_on_triangles(corners, aim)
+        gaps = np.linalg.norm(on - aim, axis=1)
+        best = int(gaps.argmin())
+        if gaps[best] > reach:
+            return None
+        shares = barycentric(corners[best][None], on[best][None])[0]
+        normal = shares @ self.mesh.normals[self.mesh.triangles[rows[best]]]
+        length = float(np.linalg.norm(normal))
+        if not length > 0.0:
+            return None
+        return on[best], np.asarray(normal / length)

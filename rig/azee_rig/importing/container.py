@@ -19,32 +19,20 @@ from azee_rig.importing.fault import BodyError, unreadable
 
 READ = frozenset(
     {
-        "VRM",
-        "VRMC_vrm",
-        "VRMC_springBone",
-        "VRMC_node_constraint",
-        "KHR_animation_pointer",
+        "KHR_lights_punctual",
+        "KHR_materials_variants",
         "KHR_mesh_quantization",
+        "KHR_node_hoverability",
+        "KHR_node_selectability",
         "KHR_node_visibility",
-        "KHR_xmp",
-        "KHR_xmp_json_ld",
         "MSFT_lod",
-        "MSFT_packing_normalRoughnessMetallic",
-        "MSFT_packing_occlusionRoughnessMetallic",
-        "MSFT_texture_dds",
-        "GODOT_single_root",
-        "ADOBE_materials_clearcoat_specular",
-        "ADOBE_materials_clearcoat_tint",
-        "ADOBE_materials_thin_transparency",
-        "AGI_articulations",
+        "VRM",
+        "VRMC_node_constraint",
+        "VRMC_vrm",
     }
 )
-"""Extensions without which a file may not be read, and which are read or change nothing here."""
-DECORATING = (
-    *("KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_audio", "KHR_environment_map"),
-    *("EXT_texture_", "EXT_lights_", "EXT_materials_", "FB_materials_", "VRMC_materials_"),
-)
-"""How the names of extensions begin that change looks and light only, never the shape."""
+"""Extensions on nodes, meshes and accessors that are read, or that change no shape."""
+GEOMETRY = ("nodes", "meshes", "skins", "accessors", "bufferViews", "buffers")
 COMPRESSED = {
     "KHR_draco_mesh_compression": "Draco",
     "EXT_meshopt_compression": "meshopt",
@@ -198,6 +186,7 @@ def _check_version(file: GltfFile) -> None:
     if not isinstance(required, list) or not all(isinstance(name, str) for name in required):
         raise unreadable("`extensionsRequired` is not a list of names")
     for extension in required:
+        # What is needed for looks, light or motion only is no reason to refuse a body.
         if extension in COMPRESSED:
             raise BodyError(
                 "body-unsupported",
@@ -205,7 +194,7 @@ def _check_version(file: GltfFile) -> None:
                 help_="save it without compression, for example from Blender: in the glTF export, "
                 "leave Compression off",
             )
-        if extension not in READ and not extension.startswith(DECORATING):
+        if extension not in READ and extension in _on_geometry(file):
             raise BodyError(
                 "body-unsupported",
                 f"it needs the glTF extension `{label(extension)}`, which is not read",
@@ -226,6 +215,16 @@ def _buffer(buffer: Mapping[str, Any], binary: bytes | None, folder: Path, index
             "the file was probably cut off",
         )
     return data[:length]
+
+
+def _on_geometry(file: GltfFile) -> set[str]:
+    """Names of the extensions that stand on what a body's shape is made of."""
+    rows: list[object] = [row for kind in GEOMETRY for row in file.all(kind)]
+    for mesh in file.all("meshes"):
+        primitives = mesh.get("primitives")
+        rows += primitives if isinstance(primitives, list) else []
+    found = [row.get("extensions") for row in rows if isinstance(row, dict)]
+    return {name for extensions in found if isinstance(extensions, dict) for name in extensions}
 
 
 def bytes_at(uri: str, folder: Path, what: str) -> bytes:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -27,6 +27,9 @@ Table = Mapping[str, Any]
 
 ENOUGH = 0.5
 """Share of a morph's units that a face must have to show it."""
+SURE = 6
+"""A shorter end of a name may well be something else."""
+_BEGINS = re.compile(r"(?:(?<=[^A-Za-z])|^)[A-Za-z]|(?<=[a-z0-9])[A-Z]")
 _SIDE = re.compile(r"[\W_](l|r)$", re.IGNORECASE)
 
 
@@ -92,6 +95,16 @@ def plain(name: str) -> str:
     return re.sub(r"[^a-z0-9]", "", name.split(".")[-1].lower())
 
 
+def _word(name: str, words: Collection[str]) -> str:
+    """Return what is known of a target's name: `Anna_Face_jawOpen` is `jawopen`."""
+    whole = plain(name)
+    if whole in words:
+        return whole
+    ends = [m.start() for m in _BEGINS.finditer(name)]
+    ended = (plain(name[start:]) for start in ends[1:])
+    return next((word for word in ended if word in words and len(word) >= SURE), whole)
+
+
 def map_face(
     targets: Sequence[str],
     expressions: Mapping[str, Weights],
@@ -135,17 +148,20 @@ def _read(
     known = json.loads(path.read_text(encoding="utf-8"))
     units = {u for weights in table["expressed"].values() for u in weights} | set(lids)
     units |= {u for near in known["near"].values() for u in near} | set(known["same"])
-    unit_of = {plain(u): u for u in sorted(units)}
-    unit_of |= {name: unit for unit, names in known["same"].items() for name in names}
+    words = {plain(word) for word in (*units, *known["pairs"])}
+    words |= {word for aliases in known["same"].values() for word in aliases}
     called: dict[str, Weights] = {}
     for name in targets:
-        called.setdefault(plain(name), {name: 1.0})
+        called.setdefault(_word(name, words), {name: 1.0})
     # What a VRM declares counts more than what a target happens to be called.
     called |= {plain(word): dict(weights) for word, weights in expressions.items() if weights}
     single: dict[str, Weights] = {}
-    for word, weights in called.items():
-        if word in unit_of:
-            single.setdefault(unit_of[word], weights)
+    for unit in sorted(units):
+        # Its own name counts before what others call something like it.
+        names = [plain(unit), *known["same"].get(unit, ())]
+        named = next((word for word in names if word in called), None)
+        if named is not None:
+            single[unit] = called[named]
     both = {
         (pair[0], pair[1]): called[word] for word, pair in known["pairs"].items() if word in called
     }

@@ -25,6 +25,7 @@ from azee_rig.importing.bone_map import BONES, DIGITS, SIDES, BoneMap, check_bon
 from azee_rig.importing.container import GltfFile, read_gltf
 from azee_rig.importing.eyes import Ball, find_balls, usual_place
 from azee_rig.importing.face import FaceMap, map_face, pack_units
+from azee_rig.importing.face_shape import face_shape
 from azee_rig.importing.fault import BodyError, unreadable
 from azee_rig.importing.limbs import Limbs, build_limbs
 from azee_rig.importing.propose import propose
@@ -300,7 +301,8 @@ class _Import:
         seeing = reduced.held(list(eyes.values())) if eyes else np.zeros(len(self.vertices), bool)
         surface = ForeignSurface(mesh, limbs.skeleton, eyes=seeing)
         nodes = built.chain.names
-        placer = SitePlacer(surface, anatomy, frames, nodes, built.bones, limbs.flesh)
+        shape = face_shape(surface, anatomy, self.bones.bones["head"][0])
+        placer = SitePlacer(surface, anatomy, frames, nodes, built.bones, limbs.flesh, shape)
         absent = self._absent()
         sites: dict[str, RigSite] = {}
         lost = []

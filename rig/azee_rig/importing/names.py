@@ -12,7 +12,6 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from os.path import commonprefix
 
 
 def _words(text: str) -> frozenset[str]:
@@ -93,7 +92,7 @@ class Reading:
 
 def read_names(names: Sequence[str]) -> list[Reading]:
     """Read a skeleton's names: a word that most of them begin or end with says nothing."""
-    shared = len(commonprefix(names)) if len(names) >= FEW else 0
+    shared = _alike(min(names), max(names)) if len(names) >= FEW else 0
     words = [_cut(name[shared:]) for name in names]
     for end in (0, -1):
         while (common := _common([w[end] for w in words if len(w) > 1], len(words))) is not None:
@@ -101,6 +100,12 @@ def read_names(names: Sequence[str]) -> list[Reading]:
                 if len(w) > 1 and w[end] == common:
                     del w[end]
     return [_read(w) for w in words]
+
+
+def _alike(first: str, last: str) -> int:
+    """Return how many letters two names begin with in common."""
+    pairs = enumerate(zip(first, last, strict=False))
+    return next((i for i, (a, b) in pairs if a != b), min(len(first), len(last)))
 
 
 def read_name(name: str) -> Reading:

@@ -246,7 +246,8 @@ def _joined(found: _Collected, file: GltfFile, nodes: Nodes) -> SceneBody:
     bound = np.array([places[index[j]] for j in found.bind])
     stand = np.array([nodes.world[j][:3, 3] for j in found.bind])
     size = float(np.ptp(vertices, axis=0).max())
-    parts, colours = painted(file, found.primitives)
+    parts, colours, lost = painted(file, found.primitives)
+    notes += lost
     return SceneBody(
         joints=_names(joints, nodes),
         parents=np.array([index.get(nodes.parents[node], -1) for node in joints]),

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from azee_rig.fields import number, numbers
 from azee_rig.importing.accessors import read_array
 from azee_rig.importing.container import COMPRESSED, GltfFile, label, whole
 from azee_rig.importing.fault import BodyError, unreadable
@@ -20,6 +21,7 @@ POINTS, LINES = 0, (1, 2, 3)
 TRIANGLES, STRIP, FAN = 4, 5, 6
 FARTHEST = 1e15
 """No coordinate of a vertex is larger."""
+TRANSFORM, GLOSSY = "KHR_texture_transform", "KHR_materials_pbrSpecularGlossiness"
 SETS = 4
 """Sets of four influences that are read."""
 
@@ -163,17 +165,45 @@ def _texture(
 ) -> tuple[int, Floats] | None:
     if material is None:
         return None
-    look = file.one("materials", material).get("pbrMetallicRoughness")
-    info = look.get("baseColorTexture") if isinstance(look, dict) else None
+    info = base_look(file.one("materials", material)).get("baseColorTexture")
     if not isinstance(info, dict) or not isinstance(info.get("index"), int):
         return None
-    name = f"TEXCOORD_{whole(info, 'texCoord', 0)}"
+    extensions = info.get("extensions")
+    transform = extensions.get(TRANSFORM) if isinstance(extensions, dict) else None
+    transform = transform if isinstance(transform, dict) else {}
+    name = f"TEXCOORD_{whole(transform, 'texCoord', whole(info, 'texCoord', 0))}"
     if name not in attributes:
         return None
     at = read_array(file, attributes[name], "VEC2").astype(np.float64)
     if np.abs(at).max(initial=0.0) > FARTHEST:
         raise unreadable("a mesh has a texture coordinate farther away than numbers reach")
-    return info["index"], _same_count(at, count, "texture coordinates")
+    return info["index"], _same_count(_shifted(at, transform), count, "texture coordinates")
+
+
+def _shifted(at: Floats, transform: Mapping[str, Any]) -> Floats:
+    """Texture coordinates (n, 2) moved as KHR_texture_transform says: scaled, turned, shifted."""
+    try:
+        shift, scale = (
+            numbers(transform.get(key, usual), (2,), key)
+            for key, usual in (("offset", [0.0, 0.0]), ("scale", [1.0, 1.0]))
+        )
+        angle = number(transform.get("rotation", 0.0), "rotation")
+    except ValueError as error:
+        raise unreadable(f"a texture is moved by what is no number: {error}") from error
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([[c, s], [-s, c]])
+    return np.asarray((at * scale) @ turn.T + shift)
+
+
+def base_look(material: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the base colour of a material, which an older extension calls diffuse."""
+    look = material.get("pbrMetallicRoughness")
+    extensions = material.get("extensions")
+    older = extensions.get(GLOSSY) if isinstance(extensions, dict) else None
+    if isinstance(older, dict) and not isinstance(look, dict):
+        pairs = (("baseColorFactor", "diffuseFactor"), ("baseColorTexture", "diffuseTexture"))
+        return {new: older[old] for new, old in pairs if old in older}
+    return look if isinstance(look, dict) else {}
 
 
 def stacked(arrays: Sequence[NDArray[Any]], width: int) -> NDArray[Any]:

@@ -1,0 +1,255 @@
+"""Faces that others made: which target is which unit, textures, and where the sites lie."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from body_families import FAMILIES, Body, drawn, make_body
+from glb_file import GlbFile
+from numpy.typing import NDArray
+from PIL import Image
+
+from azee_rig.importing import importer
+from azee_rig.importing.container import read_gltf
+from azee_rig.importing.face import map_face
+from azee_rig.importing.importer import import_body
+from azee_rig.importing.scene import read_scene
+from azee_rig.load import load_rig
+from azee_rig.rig import Rig
+
+DATA = Path(importer.DATA)
+TABLE = json.loads((DATA / "face_morphs.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture
+def rigid(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave sites in their nodes' frames: what they ride on is tested elsewhere, and slow."""
+    monkeypatch.setattr(importer, "riding", lambda rig, mesh: rig.sites)
+
+
+@pytest.fixture(scope="module")
+def plain_body() -> Body:
+    return make_body(FAMILIES["vroid"])
+
+
+@pytest.mark.parametrize("order", [1, -1])
+@pytest.mark.parametrize(
+    ("exact", "alias"),
+    [
+        ("jawOpen", "viseme_aa"),
+        ("jawOpen", "mouthOpen"),
+        ("mouthFunnel", "viseme_O"),
+        ("mouthPucker", "viseme_U"),
+        ("mouthPucker", "kiss"),
+        ("browInnerUp", "Fcl_BRW_Sorrow"),
+    ],
+)
+def test_a_units_own_name_counts_before_another(exact: str, alias: str, order: int) -> None:
+    targets = [alias, exact][::order]
+    face = map_face(targets, {}, DATA, TABLE, {exact: ("a", 1.0)})
+    assert list(face.lids) == [exact]
+    only = map_face([alias], {}, DATA, TABLE, {exact: ("a", 1.0)})
+    assert list(only.lids) == [alias]
+
+
+def test_a_vrm_that_has_the_unit_itself_uses_it() -> None:
+    said = {"aa": {"Fcl_MTH_A": 1.0}}
+    face = map_face(["Fcl_MTH_A", "jawOpen"], said, DATA, TABLE, {"jawOpen": ("a", 1.0)})
+    assert list(face.lids) == ["jawOpen"]
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["jawOpen", "JawOpen", "jaw_open", "Face.jawOpen", "Anna_Face_jawOpen", "head-JawOpen",
+     "Face.M_F00_000_00_Fcl_MTH_A"],
+)  # fmt: skip
+def test_a_target_is_known_by_the_end_of_its_name(name: str) -> None:
+    face = map_face([name], {}, DATA, TABLE, {"jawOpen": ("a", 1.0)})
+    assert list(face.lids) == [name]
+
+
+def test_the_end_of_another_word_is_no_name() -> None:
+    face = map_face(["Shirt_puff", "toothsmile"], {}, DATA, TABLE, {"jawOpen": ("a", 1.0)})
+    assert not face.expressed
+
+
+def test_a_target_moves_the_vertices_that_the_file_says(tmp_path: Path, rigid: None) -> None:
+    """In metres of the body that stands, though the file is in centimetres with z up."""
+    unit = "jawOpen"
+    body = make_body(FAMILIES["ready-player-me"])
+    path = body.file(unit=0.01, up="z", units={"other": "cheekPuff", unit: unit})
+    made = import_body(path.write(tmp_path / "body.glb"), "face")
+    rows, deltas = made.mesh.unit(unit)
+    there, moves = body.units[unit]
+    expected = {}
+    for row, move in zip(there.tolist(), moves, strict=True):
+        if np.abs(move).max() > 1e-6:
+            expected[tuple(np.round(body.vertices[row], 4))] = move
+    assert len(expected) > 20
+    found = {
+        tuple(np.round(made.mesh.vertices[row], 4)): move
+        for row, move in zip(rows.tolist(), deltas, strict=True)
+    }
+    near = [key for key in expected if key in found]
+    assert len(near) > 0.9 * len(expected)
+    for key in near:
+        assert np.allclose(found[key], expected[key], atol=2e-5)
+    assert "cheekPuff" not in made.mesh.units
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        {"apart_m": 0.12},
+        pytest.param({"apart_m": 0.095}, marks=pytest.mark.slow),
+        pytest.param({"apart_m": 0.035, "deep_m": 0.05}, marks=pytest.mark.slow),
+    ],
+    ids=["far", "less far", "deep"],
+)
+def test_every_site_of_a_drawn_face_is_placed(
+    plain_body: Body, tmp_path: Path, rigid: None, shape: dict[str, float]
+) -> None:
+    body = drawn(plain_body, **shape)
+    made = import_body(body.file().write(tmp_path / "drawn.glb"), "drawn")
+    assert made.report.lost_sites == ()
+    assert set(made.rig.sites) == set(load_rig("signer").sites)
+    at = _places(made.rig)
+    assert at["CH"][1] < at["MO"][1] < at["NSP"][1] <= at["NO"][1] < at["EYE_L"][1]
+    assert at["EYE_L"][1] < at["EB_L"][1] < at["FH"][1] < at["HEAD"][1]
+    assert 0.0 < at["EBi_L"][0] < at["EB_L"][0] < at["EBe_L"][0] < at["EAR_L"][0]
+    assert 0.01 < at["NO_L"][0] < 0.03
+    chin = body.vertices[body.weights[:, body.names.index("J_Bip_C_Head")] > 0.9][:, 1].min()
+    assert chin - 0.01 < at["CH"][1] < chin + 0.03
+    for name, place in at.items():
+        assert np.linalg.norm(made.mesh.vertices - place, axis=1).min() < 0.02, name
+
+
+def _places(rig: Rig) -> dict[str, NDArray[np.float64]]:
+    frames = rig.chain.frames(rig.coordinates.bind)
+    return {n: s.point(frames) for n, s in rig.sites.items() if s.bone == "head"}
+
+
+def _image(form: str) -> bytes:
+    """Return a picture whose left half is red and whose right half is blue."""
+    pixels = np.zeros((4, 8, 3), np.uint8)
+    pixels[:, :4], pixels[:, 4:] = (255, 0, 0), (0, 0, 255)
+    out = io.BytesIO()
+    Image.fromarray(pixels).save(out, form, **({"lossless": True} if form == "WEBP" else {}))
+    return out.getvalue()
+
+
+@pytest.fixture(scope="module")
+def textured() -> GlbFile:
+    """A body whose first material has a texture: its vertices look at the left half."""
+    file = make_body(FAMILIES["ready-player-me"]).file()
+    document = file.document
+    primitive = document["meshes"][0]["primitives"][0]
+    count = document["accessors"][primitive["attributes"]["POSITION"]]["count"]
+    at = np.tile(np.array([0.25, 0.5], np.float32), (count, 1)).tobytes()
+    document["bufferViews"].append(
+        {"buffer": 0, "byteOffset": len(file.binary), "byteLength": len(at)}
+    )
+    document["accessors"].append(
+        {"bufferView": len(document["bufferViews"]) - 1, "componentType": 5126, "count": count,
+         "type": "VEC2"}
+    )  # fmt: skip
+    file.binary += at
+    document["buffers"][0]["byteLength"] = len(file.binary)
+    primitive["attributes"]["TEXCOORD_0"] = len(document["accessors"]) - 1
+    material = document["materials"][primitive["material"]]
+    material["pbrMetallicRoughness"] = {"baseColorTexture": {"index": 0}}
+    document["textures"] = [{"source": 0}]
+    document["images"] = [{"uri": "skin%20of%20it.png"}]
+    return file
+
+
+def _loose(file: GlbFile, folder: Path) -> Path:
+    """Write it as a .gltf with its buffer beside."""
+    (folder / "body.bin").write_bytes(file.binary)
+    file.document["buffers"][0]["uri"] = "body.bin"
+    path = folder / "body.gltf"
+    path.write_text(json.dumps(file.document), encoding="utf-8")
+    return path
+
+
+def _colour(path: Path) -> tuple[list[float], tuple[str, ...]]:
+    scene = read_scene(read_gltf(path))
+    first = scene.triangles[scene.parts[0].start, 0]
+    return np.round(scene.colours[first], 3).tolist(), scene.notes
+
+
+def test_a_texture_beside_a_gltf_is_read(textured: GlbFile, tmp_path: Path) -> None:
+    (tmp_path / "skin of it.png").write_bytes(_image("PNG"))
+    assert _colour(_loose(textured.copy(), tmp_path)) == ([1.0, 0.0, 0.0], ())
+
+
+def _webp(extension: str) -> Callable[[GlbFile], None]:
+    def change(file: GlbFile) -> None:
+        file.document["textures"] = [{"extensions": {extension: {"source": 0}}}]
+        file.document["extensionsRequired"] = [extension]
+
+    return change
+
+
+def _transformed(file: GlbFile) -> None:
+    material = file.document["materials"][0]["pbrMetallicRoughness"]
+    material["baseColorTexture"]["extensions"] = {
+        "KHR_texture_transform": {"offset": [0.5, 0.0], "scale": [0.5, 1.0]}
+    }
+    file.document["extensionsRequired"] = ["KHR_texture_transform"]
+
+
+def _glossy(file: GlbFile) -> None:
+    material = file.document["materials"][0]
+    look = material.pop("pbrMetallicRoughness")
+    material["extensions"] = {
+        "KHR_materials_pbrSpecularGlossiness": {"diffuseTexture": look["baseColorTexture"]}
+    }
+
+
+@pytest.mark.parametrize(
+    ("change", "form", "colour"),
+    [
+        (_webp("EXT_texture_webp"), "WEBP", [1.0, 0.0, 0.0]),
+        (_webp("XX_texture_of_ours"), "PNG", [1.0, 0.0, 0.0]),
+        (_transformed, "PNG", [0.0, 0.0, 1.0]),
+        (_glossy, "PNG", [1.0, 0.0, 0.0]),
+    ],
+)
+def test_extensions_that_decorate_are_no_reason_to_refuse(
+    textured: GlbFile,
+    tmp_path: Path,
+    change: Callable[[GlbFile], None],
+    form: str,
+    colour: list[float],
+) -> None:
+    file = textured.copy()
+    change(file)
+    (tmp_path / "skin of it.png").write_bytes(_image(form))
+    assert _colour(_loose(file, tmp_path)) == (colour, ())
+
+
+@pytest.mark.parametrize("extension", ["KHR_texture_basisu", "KHR_materials_clearcoat", "XX_glow"])
+def test_extensions_on_looks_never_refuse_a_body(
+    textured: GlbFile, tmp_path: Path, extension: str
+) -> None:
+    file = textured.copy()
+    file.document["materials"][0]["extensions"] = {extension: {}}
+    file.document["extensionsRequired"] = [extension]
+    assert read_scene(read_gltf(file.write(tmp_path / "body.glb"))).joints
+
+
+@pytest.mark.parametrize("data", [None, b"", b"no image", _image("PNG")[:30]])
+def test_a_texture_that_cannot_be_read_is_told(
+    textured: GlbFile, tmp_path: Path, data: bytes | None
+) -> None:
+    if data is not None:
+        (tmp_path / "skin of it.png").write_bytes(data)
+    colour, notes = _colour(_loose(textured.copy(), tmp_path))
+    assert colour == [1.0, 1.0, 1.0]
+    assert "its texture could not be read: there its materials' plain colours are seen" in notes

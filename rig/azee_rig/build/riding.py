@@ -37,6 +37,8 @@ MOST = 3
 """Further nodes of a site, at most."""
 GAIN = 0.85
 """One more node is taken only if it brings the worst posture nearer by so much."""
+MANY, FEW = 9, 4
+"""Of more nodes than so many, only the few that help most alone are tried together."""
 ALONG = 0.3
 """What a miss along the skin counts against one away from it."""
 DAMPING = 1e-4
@@ -84,9 +86,12 @@ def drawn_postures(coordinates: Coordinates) -> Floats:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Found:
-    """Vectors (n, 3) for n nodes, the site's own first, and the worst miss of all postures."""
+    """Vectors (n, 3) for n nodes, the site's own first, and the worst miss of all postures.
 
-    nodes: tuple[int, ...]
+    columns: which of the nodes that were tried.
+    """
+
+    columns: tuple[int, ...]
     vectors: Floats
     worst: float
 
@@ -113,27 +118,36 @@ class _Fit:
     def ridden(self, i: int, site: RigSite) -> RigSite:
         """Return site i with the shares of further nodes that it needs, if any."""
         wanted = self.skins[:, i] - self.frames.positions[:, site.node]
-        senses = self.patches[:, i] * (ALONG, ALONG, 1.0)
-        rigid = self.frames.rotations[:, site.node] @ site.position - wanted
-        best = _Found((site.node,), site.position[None], _worst(rigid, senses))
         others = [node for node in self._candidates(i, site.node) if node != site.node]
+        nodes = (site.node, *others)
+        turns = self.frames.rotations[:, nodes]
+        skin = _Sum(turns, wanted, self.patches[:, i] * (ALONG, ALONG, 1.0))
+        best = _Found((0,), site.position[None], skin.rigid(site.position))
+        tried = list(range(1, len(nodes)))
         for count in range(1, MOST + 1):
-            tried = [(site.node, *chosen) for chosen in combinations(others, count)]
-            if best.worst <= NEAR_M or not tried:
+            if best.worst <= NEAR_M or count > len(tried):
                 break
-            found = [self._fitted(nodes, wanted, senses, site.position) for nodes in tried]
+            found = [skin.fitted((0, *some), site.position) for some in combinations(tried, count)]
             least = min(found, key=lambda one: one.worst)
             if least.worst < GAIN * best.worst:
                 best = least
-        if len(best.nodes) == 1:
+            if count == 1 and len(found) > MANY:
+                nearest = sorted(found, key=lambda one: one.worst)[:FEW]
+                tried = sorted(one.columns[1] for one in nearest)
+        if len(best.columns) == 1:
             return site
-        alike = np.broadcast_to(np.eye(3), senses.shape)
-        normals = self._fitted(best.nodes, self.normals[:, i], alike, site.normal).vectors
+        alike = np.broadcast_to(np.eye(3), (len(turns), 3, 3))
+        normals = _Sum(turns, self.normals[:, i], alike).fitted(best.columns, site.normal).vectors
         return replace(
             site,
             position=best.vectors[0],
             normal=normals[0],
-            shares=tuple(map(SiteShare, best.nodes[1:], best.vectors[1:], normals[1:])),
+            shares=tuple(
+                SiteShare(nodes[column], vector, normal)
+                for column, vector, normal in zip(
+                    best.columns[1:], best.vectors[1:], normals[1:], strict=True
+                )
+            ),
         )
 
     def _candidates(self, i: int, own: int) -> list[int]:
@@ -148,39 +162,55 @@ class _Fit:
         near = [node for node, coordinates in self.beside.items() if coordinates <= known]
         return list(dict.fromkeys([*carrying, *near]))
 
-    def _fitted(
-        self, nodes: tuple[int, ...], wanted: Floats, senses: Floats, rigid: Floats
-    ) -> _Found:
-        """Fit one vector per node, so that their turned sum is what is wanted, (P, 3).
 
-        Args: senses: (P, 3, 3) columns along which misses are measured, as long as they count.
-        rigid: (3,) what the first node alone would take.
+class _Sum:
+    """Turned vectors whose sum is to follow a point over the drawn postures.
+
+    Args: turns: (P, n, 3, 3) rotations of the nodes that may carry it, its own first. wanted:
+    (P, 3) where it is, from its own node. senses: (P, 3, 3) columns along which misses are
+    measured, as long as they count.
+    """
+
+    def __init__(self, turns: Floats, wanted: Floats, senses: Floats) -> None:
+        self.turns, self.wanted = turns, wanted
+        postures, count = turns.shape[:2]
+        by_node = np.einsum("pxa,pnxb->npab", senses, turns)
+        self.columns = by_node.reshape(count, 3 * postures, 3)
+        self.aim = np.einsum("pxa,px->pa", senses, wanted).ravel()
+
+    def rigid(self, position: Floats) -> float:
+        """Return the worst miss if its own node alone carries it."""
+        return float(self._missed(self.columns[0], position).max())
+
+    def fitted(self, columns: tuple[int, ...], rigid: Floats) -> _Found:
+        """Fit one vector per node, so that their turned sum is what is wanted.
+
+        Args: columns: places of the nodes in `turns`. rigid: (3,) what the first alone would take.
         """
-        rotations = self.frames.rotations[:, nodes]
-        columns = np.einsum("pxa,pnxb->panb", senses, rotations).reshape(3 * len(wanted), -1)
-        start = np.zeros(columns.shape[1])
+        system = np.hstack([self.columns[column] for column in columns])
+        start = np.zeros(system.shape[1])
         start[:3] = rigid
-        left = np.einsum("pxa,px->pa", senses, wanted).ravel() - columns @ start
-        weights = np.ones(len(wanted))
+        left = self.aim - system @ start
+        at_bind = self.turns[0, columns]
+        weights = np.ones(len(self.wanted))
         found: _Found | None = None
         for _ in range(ROUNDS):
-            weighted = columns * np.repeat(weights / weights.sum(), 3)[:, None]
-            normal = weighted.T @ columns + DAMPING * np.eye(len(start))
+            weighted = system * np.repeat(weights / weights.sum(), 3)[:, None]
+            normal = weighted.T @ system + DAMPING * np.eye(len(start))
             vectors = (start + np.linalg.solve(normal, weighted.T @ left)).reshape(-1, 3)
-            turned = (rotations @ vectors[:, :, None])[..., 0].sum(axis=1)
-            at_bind = wanted[0] - turned[0]
-            vectors[0] += rotations[0, 0].T @ at_bind
-            missed = turned + rotations[:, 0] @ (rotations[0, 0].T @ at_bind) - wanted
-            off = np.linalg.norm(np.einsum("pxa,px->pa", senses, missed), axis=1)
+            off_at_bind = self.wanted[0] - (at_bind @ vectors[:, :, None])[..., 0].sum(axis=0)
+            vectors[0] += at_bind[0].T @ off_at_bind
+            off = self._missed(system, vectors.ravel())
             if found is None or off.max() < found.worst:
-                found = _Found(nodes, vectors, float(off.max()))
+                found = _Found(columns, vectors, float(off.max()))
             weights *= off / max(off.max(), 1e-12) + 0.01
         assert found is not None
         return found
 
-
-def _worst(missed: Floats, senses: Floats) -> float:
-    return float(np.linalg.norm(np.einsum("pxa,px->pa", senses, missed), axis=1).max())
+    def _missed(self, system: Floats, vectors: Floats) -> Floats:
+        """How far off the sum is in each posture, (P,)."""
+        off = (system @ vectors - self.aim).reshape(-1, 3)
+        return np.asarray(np.sqrt(np.einsum("pa,pa->p", off, off)))
 
 
 def _beside(rig: Rig) -> Mapping[int, set[int]]:

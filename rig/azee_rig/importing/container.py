@@ -9,7 +9,7 @@ import base64
 import json
 import struct
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeGuard
 from urllib.parse import unquote, unquote_to_bytes
@@ -51,16 +51,19 @@ class GltfFile:
     document: Mapping[str, Any]
     buffers: tuple[bytes, ...]
     folder: Path
+    _lists: dict[str, Sequence[Mapping[str, Any]]] = field(default_factory=dict)
 
     def all(self, kind: str) -> Sequence[Mapping[str, Any]]:
         """Objects of an array of the top level, such as "nodes".
 
         Raises: BodyError: it is no array of objects.
         """
-        found = self.document.get(kind, [])
-        if not isinstance(found, list) or not all(isinstance(x, dict) for x in found):
-            raise unreadable(f"`{kind}` is not a list of objects")
-        return found
+        if kind not in self._lists:
+            found = self.document.get(kind, [])
+            if not isinstance(found, list) or not all(isinstance(x, dict) for x in found):
+                raise unreadable(f"`{kind}` is not a list of objects")
+            self._lists[kind] = found
+        return self._lists[kind]
 
     def one(self, kind: str, index: object) -> Mapping[str, Any]:
         """Object of an array of the top level. Raises: BodyError: there is none."""

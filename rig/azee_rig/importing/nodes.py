@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,15 @@ class Nodes:
     order: tuple[int, ...]
     local: Floats
     world: Floats
+
+    @cached_property
+    def depth(self) -> tuple[int, ...]:
+        """Number of ancestors of each node."""
+        depth = [0] * len(self.parents)
+        for node in self.order:
+            if self.parents[node] >= 0:
+                depth[node] = depth[self.parents[node]] + 1
+        return tuple(depth)
 
     def above(self, node: int) -> list[int]:
         """Return the ancestors of a node, nearest first."""

@@ -19,6 +19,7 @@ from azee_rig.importing.container import GltfFile
 from azee_rig.importing.fault import BodyError, unreadable
 from azee_rig.importing.nodes import FARTHEST, Nodes, read_nodes
 from azee_rig.importing.paint import painted
+from azee_rig.importing.skeleton_tree import nearest_of
 from azee_rig.importing.surface_parts import Primitive, read_primitives, stacked, target_names
 from azee_rig.mesh import Part
 
@@ -174,7 +175,7 @@ def _add_skinned(
     if len(set(skin.joints)) < len(skin.joints):
         raise unreadable("a skin names a joint twice")
     known = next((k for k, joint in enumerate(skin.joints) if joint in found.bind), None)
-    first = min(range(len(skin.joints)), key=lambda k: len(nodes.above(skin.joints[k])))
+    first = min(range(len(skin.joints)), key=lambda k: nodes.depth[skin.joints[k]])
     if known is None:
         to_scene = nodes.world[skin.joints[first]] @ np.linalg.inv(skin.bound[first])
     else:
@@ -240,8 +241,7 @@ def _joined(found: _Collected, file: GltfFile, nodes: Nodes) -> SceneBody:
     if free.any():
         notes.append(f"{int(free.sum())} vertices have no weight: each follows the nearest joint")
         held = sorted({index[j] for j in found.bind})
-        gaps = np.linalg.norm(vertices[free, None] - places[held], axis=2)
-        influences[free, 0] = np.array(held)[gaps.argmin(axis=1)]
+        influences[free, 0] = np.array(held)[nearest_of(vertices[free], places[held])[0]]
         weights[free, 0] = 1.0
     bound = np.array([places[index[j]] for j in found.bind])
     stand = np.array([nodes.world[j][:3, 3] for j in found.bind])
@@ -269,22 +269,27 @@ def _joined(found: _Collected, file: GltfFile, nodes: Nodes) -> SceneBody:
 
 def _joint_nodes(found: _Collected, nodes: Nodes) -> tuple[int, ...]:
     """Nodes of all skins, those between them, and those below, which mark ends of bones."""
-    wanted = set(found.bind)
-    tops = [n for n in found.bind if not any(a in found.bind for a in nodes.above(n))]
+    held = set(found.bind)
+    under: set[int] = set()
+    for node in nodes.order:
+        if nodes.parents[node] in held or nodes.parents[node] in under:
+            under.add(node)
+    tops = [n for n in found.bind if n not in under]
     common = set(nodes.above(tops[0])) | {tops[0]}
     for top in tops[1:]:
         common &= set(nodes.above(top)) | {top}
-    root = max(common, key=lambda n: len(nodes.above(n)), default=None)
+    root = max(common, key=lambda n: nodes.depth[n], default=None)
     if root is None:
         raise unreadable("its joints hang on no common root")
     below = {root}
     for node in nodes.order:
         if nodes.parents[node] in below:
             below.add(node)
-    wanted = {n for n in below if n in wanted or n == root or wanted & set(nodes.above(n))} | {
-        a for n in found.bind for a in nodes.above(n) if a in below
-    }
-    return tuple(n for n in nodes.order if n in wanted)
+    over = {root}
+    for node in reversed(nodes.order):
+        if node in below and (node in held or node in over):
+            over |= {node, nodes.parents[node]}
+    return tuple(n for n in nodes.order if n in below and (n in under or n in over))
 
 
 def _places(found: _Collected, nodes: Nodes, joints: Sequence[int]) -> Floats:

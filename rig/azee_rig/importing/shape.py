@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 
 from azee_rig.importing.bone_map import DIGITS, LEGS
 from azee_rig.importing.names import Reading
-from azee_rig.importing.skeleton_tree import Tree
+from azee_rig.importing.skeleton_tree import Tree, nearest_of
 
 Floats = NDArray[np.float64]
 
 NEAR = 0.02
 """How far mirror images may be off, as a share of the figure's size."""
-FINGER = 2
-"""A finger is a chain of at least so many joints."""
+FINGER, LONGEST = 2, 5
+"""A finger is a chain of at least, and of at most, so many joints."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,9 +96,8 @@ def _middle_plane(tree: Tree, near: float) -> tuple[int | None, list[int]]:
     for axis in range(3):
         flipped = places.copy()
         flipped[:, axis] = 2.0 * np.median(places[:, axis]) - flipped[:, axis]
-        gap = np.linalg.norm(places[:, None] - flipped[None], axis=2)
-        found = gap.argmin(axis=1)
-        mirror = np.where(gap[np.arange(len(found)), found] < near, found, -1).tolist()
+        found, gap = nearest_of(places, flipped)
+        mirror = np.where(gap < near, found, -1).tolist()
         pairs = sum(m not in (-1, j) for j, m in enumerate(mirror))
         if pairs > best[0]:
             best = pairs, axis, mirror
@@ -127,11 +126,11 @@ def _hands(tree: Tree, mirror: Sequence[int], away: Floats, up: int) -> tuple[in
 
 def _chains(tree: Tree, joint: int) -> list[list[int]]:
     """Chains that go out from a joint like fingers: unbranched, two to five joints long."""
-    runs = [tree.run(child) for child in tree.children[joint]]
+    runs = [tree.run(child, LONGEST + 1) for child in tree.children[joint]]
     return [
         run
         for run in runs
-        if FINGER <= len(run) <= 5 and all(len(tree.children[j]) <= 1 for j in run)
+        if FINGER <= len(run) <= LONGEST and all(len(tree.children[j]) <= 1 for j in run)
     ]
 
 

@@ -13,6 +13,26 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
+AT_ONCE = 2**20
+"""Distances that are worked out at a time."""
+
+
+def nearest_of(points: Floats, places: Floats) -> tuple[Ints, Floats]:
+    """Return which of some places (m, 3) is nearest to each point (n, 3), and how far: (n,), (n,).
+
+    No more than a few megabytes are used, however many there are.
+    """
+    found, away = np.zeros(len(points), np.int64), np.zeros(len(points))
+    step = max(1, AT_ONCE // max(1, len(places)))
+    for start in range(0, len(points), step):
+        some = slice(start, start + step)
+        squares = sum((points[some, None, k] - places[None, :, k]) ** 2 for k in range(3))
+        gaps = np.asarray(squares)
+        found[some] = gaps.argmin(axis=1)
+        away[some] = np.sqrt(gaps[np.arange(len(gaps)), found[some]])
+    return found, away
+
+
 @dataclass(frozen=True, eq=False)
 class Tree:
     """Joints of a body. names (J,), parents before children; parents (J,); places (J, 3)."""
@@ -58,10 +78,10 @@ class Tree:
                 found.add(j)
         return sorted(found)
 
-    def run(self, joint: int) -> list[int]:
-        """Return the longest chain down from a joint, itself first."""
+    def run(self, joint: int, most: int) -> list[int]:
+        """Return the longest chain down from a joint, itself first, cut off after `most`."""
         chain = [joint]
-        while self.children[chain[-1]]:
+        while len(chain) < most and self.children[chain[-1]]:
             chain.append(max(self.children[chain[-1]], key=lambda c: self.height[c]))
         return chain
 

@@ -61,6 +61,16 @@ def browser(node: Node) -> Node:
     return Node(node.program, chromium=_program(names, "Chromium"))
 
 
+@pytest.fixture(scope="session")
+def assimp() -> str:
+    """Path of Assimp's command, a reader of glTF that is not ours."""
+    found = shutil.which("assimp")
+    if found is None:
+        _missing("Assimp is not installed: Debian's assimp-utils")
+    assert found is not None
+    return found
+
+
 def _program(names: Sequence[str], title: str) -> str:
     """Path of the first program that exists; else the test is skipped, or fails in CI."""
     found = next(filter(None, map(shutil.which, names)), None)

@@ -35,6 +35,7 @@ class Document:
         self.asset = {"version": "2.0", "generator": generator}
         self.objects: dict[str, list[dict[str, Any]]] = {}
         self.buffer = bytearray()
+        self._zero_rows, self._zero_view = 0, -1
 
     def add(self, kind: str, **properties: Any) -> int:
         """Append an object to the array `kind`, such as "nodes"; returns its index.
@@ -80,20 +81,21 @@ class Document:
     ) -> int:
         """Store `count` vectors that are zero but for `values` (S, 3) at `rows` (S,), increasing.
 
-        With no rows at all it is a plain accessor without a buffer view: zeros.
+        With no rows at all the zeros are written out, once for all accessors: glTF allows an
+        accessor without any data, but readers are known that crash on one.
         """
+        if not len(rows):
+            return self._zeros(count, bounds=bounds)
         shown = values if len(rows) == count else np.vstack([values, np.zeros((1, 3), np.float32)])
-        sparse = None
-        if len(rows):
-            indices = rows.astype(np.uint16 if count <= 0xFFFF else np.uint32)
-            sparse = {
-                "count": len(rows),
-                "indices": {
-                    "bufferView": self._view(indices, None),
-                    "componentType": COMPONENT_TYPES[indices.dtype.name],
-                },
-                "values": {"bufferView": self._view(values, None)},
-            }
+        indices = rows.astype(np.uint16 if count <= 0xFFFF else np.uint32)
+        sparse = {
+            "count": len(rows),
+            "indices": {
+                "bufferView": self._view(indices, None),
+                "componentType": COMPONENT_TYPES[indices.dtype.name],
+            },
+            "values": {"bufferView": self._view(values, None)},
+        }
         return self.add(
             "accessors",
             componentType=COMPONENT_TYPES["float32"],
@@ -104,7 +106,25 @@ class Document:
             sparse=sparse,
         )
 
-    def _view(self, array: NDArray[Any], target: Target | None) -> int:
+    def _zeros(self, count: int, *, bounds: bool) -> int:
+        """Add an accessor of `count` vectors that are zero, over a view that others share."""
+        if count > self._zero_rows:
+            self._zero_rows = count
+            zeros = np.zeros((count, 3), np.float32)
+            self._zero_view = self._view(zeros, Target.VERTICES, stride=zeros.itemsize * 3)
+        return self.add(
+            "accessors",
+            bufferView=self._zero_view,
+            componentType=COMPONENT_TYPES["float32"],
+            count=count,
+            type="VEC3",
+            min=[0.0] * 3 if bounds else None,
+            max=[0.0] * 3 if bounds else None,
+        )
+
+    def _view(
+        self, array: NDArray[Any], target: Target | None, *, stride: int | None = None
+    ) -> int:
         if array.dtype.kind == "f" and not np.isfinite(array).all():
             raise ValueError("glTF holds no infinite numbers and none that are not numbers")
         data = np.ascontiguousarray(array).tobytes()
@@ -115,6 +135,7 @@ class Document:
             buffer=0,
             byteOffset=offset,
             byteLength=len(data),
+            byteStride=stride,
             target=None if target is None else int(target),
         )
 

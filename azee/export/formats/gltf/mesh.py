@@ -23,7 +23,8 @@ def add_mesh(document: Document, mesh: BodyMesh, name: str) -> int:
     """Add the mesh in its bind pose; returns its index.
 
     Every primitive has all morph targets, as glTF asks; what a target leaves alone costs nothing.
-    The names of the targets stand in the mesh's extras, where viewers look for them.
+    Materials have two sides: nearly every part has a border, such as a cuff, beyond which one
+    sees its inside. The names of the targets stand in the mesh's extras, where viewers look.
     """
     targets = _Targets(list(morph_targets(mesh)))
     primitives = [_primitive(document, mesh, part, targets) for part in mesh.parts]
@@ -53,6 +54,7 @@ def _primitive(document: Document, mesh: BodyMesh, part: Part, targets: _Targets
         "material": document.add(
             "materials",
             name=part.name,
+            doubleSided=True,
             pbrMetallicRoughness={
                 "baseColorFactor": list(part.colour),
                 "metallicFactor": 0.0,

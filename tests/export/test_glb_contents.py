@@ -1,0 +1,165 @@
+"""What a GLB says, array for array, told by a reader that shares nothing with the writer."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from glb_arrays import GlbArrays
+from numpy.typing import NDArray
+from small_rig import SMALL, tumbling
+
+from azee.clip.clip import Clip
+from azee.export.formats.glb import write_glb
+from azee_rig.mesh import BodyMesh
+from azee_rig.rig import Rig
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory: pytest.TempPathFactory) -> GlbArrays:
+    path = tmp_path_factory.mktemp("contents") / "small.glb"
+    write_glb(tumbling(), SMALL, path)
+    return GlbArrays.read(path)
+
+
+def _still(rig: Rig) -> Clip:
+    rest = rig.coordinates.idle
+    return Clip(np.array([0.0, 1.0]), np.stack([rest, rest]), (), np.zeros((2, 0)))
+
+
+def _primitives(file: GlbArrays) -> list[dict[str, Any]]:
+    (mesh,) = file.document["meshes"]
+    primitives: list[dict[str, Any]] = mesh["primitives"]
+    return primitives
+
+
+def _used(mesh: BodyMesh, part: int) -> NDArray[np.int64]:
+    at = mesh.parts[part]
+    return np.unique(mesh.triangles[at.start : at.stop])
+
+
+def test_the_hierarchy_is_the_skeletons(small: GlbArrays) -> None:
+    skeleton = SMALL.skeleton
+    found = small.joints()
+    assert list(found) == list(skeleton.names)
+    for j, (name, (parent, offset, inverse)) in enumerate(found.items()):
+        up = int(skeleton.parents[j])
+        assert parent == (skeleton.names[up] if up >= 0 else ""), name
+        assert np.allclose(offset, skeleton.offsets[j], atol=1e-7), name
+        expected = np.eye(4)
+        expected[:3, 3] = -skeleton.rest_positions[j]
+        assert np.allclose(inverse, expected, atol=1e-6), name
+    (scene,) = small.document["scenes"]
+    roots = [small.document["nodes"][node]["name"] for node in scene["nodes"]]
+    assert roots == ["root", "small_mesh"]
+
+
+def test_every_vertex_hangs_on_its_joints(small: GlbArrays) -> None:
+    mesh = SMALL.mesh
+    for number, primitive in enumerate(_primitives(small)):
+        attributes = primitive["attributes"]
+        used = _used(mesh, number)
+        dense = np.zeros((len(used), mesh.joint_count))
+        for i in range(4):
+            if f"JOINTS_{i}" in attributes:
+                joints = small.array(attributes[f"JOINTS_{i}"]).astype(int)
+                weights = small.array(attributes[f"WEIGHTS_{i}"])
+                np.add.at(dense, (np.arange(len(used))[:, None], joints), weights)
+        assert np.abs(dense - mesh.dense_weights[used]).max() < 1e-4
+        assert np.abs(dense.sum(axis=1) - 1.0).max() < 1e-12
+        assert np.allclose(small.array(attributes["POSITION"]), mesh.vertices[used], atol=1e-6)
+        assert np.allclose(small.array(attributes["NORMAL"]), mesh.normals[used], atol=1e-6)
+        colours = small.array(attributes["COLOR_0"])
+        assert np.allclose(colours[:, :3], mesh.colours[used], atol=1e-4)
+        corners = small.array(primitive["indices"]).reshape(-1, 3)
+        part = mesh.parts[number]
+        assert np.array_equal(used[corners], mesh.triangles[part.start : part.stop])
+
+
+def test_every_target_moves_what_its_unit_moves(small: GlbArrays) -> None:
+    mesh = SMALL.mesh
+    moved = 0
+    for number, primitive in enumerate(_primitives(small)):
+        used = _used(mesh, number)
+        assert len(primitive["targets"]) == len(mesh.units)
+        for unit, target in zip(mesh.units, primitive["targets"], strict=True):
+            rows, deltas = mesh.unit(unit)
+            expected = np.zeros((len(mesh.vertices), 3))
+            expected[rows] = deltas
+            found = small.array(target["POSITION"])
+            assert np.allclose(found, expected[used], atol=1e-7), unit
+            moved += int(np.abs(found).max() > 0.0)
+            weight = np.array([float(name == unit) for name in mesh.units])
+            turned = replace(mesh, vertices=mesh.shaped(weight)).normals - mesh.normals
+            assert np.abs(small.array(target["NORMAL"]) - turned[used]).max() < 3e-3, unit
+    assert moved == sum(len(mesh.unit(unit)[0]) > 0 for unit in mesh.units) > 0
+
+
+def test_every_array_has_data(small: GlbArrays) -> None:
+    accessors = small.document["accessors"]
+    assert all("bufferView" in a or "sparse" in a for a in accessors)
+    plain = [t["POSITION"] for p in _primitives(small) for t in p["targets"]]
+    still = [n for n in plain if "sparse" not in accessors[n]]
+    assert still
+    views = {accessors[n]["bufferView"] for n in still}
+    assert len(views) == 1
+    view = small.document["bufferViews"][views.pop()]
+    assert view["byteStride"] == 12
+    assert not any(small.binary[view["byteOffset"] : view["byteOffset"] + view["byteLength"]])
+    for number in still:
+        assert accessors[number]["count"] * 12 <= view["byteLength"]
+        assert accessors[number]["min"] == accessors[number]["max"] == [0.0, 0.0, 0.0]
+
+
+def test_cloth_has_two_sides(small: GlbArrays) -> None:
+    assert [m["name"] for m in small.document["materials"]] == ["sleeve", "skin"]
+    assert all(m["doubleSided"] for m in small.document["materials"])
+
+
+def test_labels_and_keys_count_from_the_start_of_the_clip(tmp_path: Path) -> None:
+    clip = tumbling()
+    later = replace(
+        clip,
+        times=clip.times + 2.5,
+        labels=tuple(
+            replace(label, start_s=label.start_s + 2.5, end_s=label.end_s + 2.5)
+            for label in clip.labels
+        ),
+    )
+    write_glb(clip, SMALL, tmp_path / "a.glb")
+    write_glb(later, SMALL, tmp_path / "b.glb")
+    first, second = (GlbArrays.read(tmp_path / f"{name}.glb") for name in "ab")
+    (told,) = second.document["animations"]
+    assert told["extras"] == first.document["animations"][0]["extras"]
+    assert told["extras"]["labels"][0]["start_s"] == 0.0
+    for sampler in told["samplers"]:
+        times = second.array(sampler["input"])[:, 0]
+        assert times[0] == 0.0
+        assert times[-1] <= clip.times[-1] - clip.times[0] + 1e-6
+
+
+@pytest.mark.slow
+def test_assimp_reads_the_whole_body(assimp: str, signer: Rig, tmp_path: Path) -> None:
+    path = tmp_path / "signer.glb"
+    write_glb(_still(signer), signer, path)
+    shown = subprocess.run([assimp, "info", path], capture_output=True, text=True, check=False)
+    assert shown.returncode == 0, shown.stdout
+    rows = re.findall(r"^([A-Z][a-z ]+\w):? +(.+)$", shown.stdout, re.MULTILINE)
+    told = dict(reversed(rows))
+    mesh = signer.mesh
+    assert int(told["Meshes"]) == len(mesh.parts)
+    assert int(told["Faces"]) == len(mesh.triangles)
+    assert int(told["Vertices"]) == sum(len(_used(mesh, n)) for n in range(len(mesh.parts)))
+    assert int(told["Nodes"]) >= len(signer.skeleton.names) + 1
+    assert int(told["Animations"]) == 1
+    for name, expected in (
+        ("Minimum point", mesh.vertices.min(axis=0)),
+        ("Maximum point", mesh.vertices.max(axis=0)),
+    ):
+        numbers = [float(x) for x in told[name].strip("()").split()]
+        assert np.allclose(numbers, expected, atol=1e-5), name

@@ -253,3 +253,38 @@ def test_a_texture_that_cannot_be_read_is_told(
     colour, notes = _colour(_loose(textured.copy(), tmp_path))
     assert colour == [1.0, 1.0, 1.0]
     assert "its texture could not be read: there its materials' plain colours are seen" in notes
+
+
+@pytest.mark.parametrize(
+    ("units", "shown", "partly"),
+    [
+        ({"jawOpen": 0.5, "mouthPucker": 0.5}, True, True),
+        ({"jawOpen": 0.49, "mouthPucker": 0.51}, False, False),
+        ({"jawOpen": 0.9995, "mouthPucker": 0.0005}, True, False),
+        ({"jawOpen": 0.99, "mouthPucker": 0.01}, True, True),
+        ({"jawOpen": -0.7, "mouthPucker": 0.3}, True, True),
+        ({"mouthPucker": 1.0}, False, False),
+    ],
+)
+def test_a_morph_is_shown_if_half_of_it_is_there(
+    units: dict[str, float], shown: bool, partly: bool
+) -> None:
+    table = {"expressed": {"X": units}, "not_expressed": {}}
+    face = map_face(["jawOpen"], {}, DATA, table, {})
+    assert ("X" in face.expressed) == shown
+    assert face.partly == (("X",) if partly else ())
+    if shown:
+        assert face.expressed["X"] == {"jawOpen": units["jawOpen"]}
+    else:
+        assert "mouthPucker" in face.unexpressed["X"]
+
+
+def test_a_target_for_both_sides_stands_for_two_units_of_one_weight() -> None:
+    both = {"expressed": {"X": {"eyeBlinkLeft": 0.8, "eyeBlinkRight": 0.8}}, "not_expressed": {}}
+    face = map_face(["Blink"], {}, DATA, both, {})
+    assert face.expressed["X"] == {"Blink": 0.8}
+    assert face.partly == ()
+    uneven = {"expressed": {"X": {"eyeBlinkLeft": 0.8, "eyeBlinkRight": 0.3}}, "not_expressed": {}}
+    assert map_face(["Blink"], {}, DATA, uneven, {}).expressed == {}
+    sides = map_face(["Blink", "Blink_L", "Blink_R"], {}, DATA, both, {})
+    assert sides.expressed["X"] == {"Blink_L": 0.8, "Blink_R": 0.8}

@@ -10,7 +10,7 @@ READY := $(ENV)/.ready
 PACKAGES := tests/node/node_modules/.package-lock.json
 TYPED := tests benchmarks examples
 
-.PHONY: motion-table readme-picture help demo test check format bench bench-solver bench-blender fuzz fuzz-bvh examples films pictures wheel-test node
+.PHONY: motion-table readme-picture help demo test check format bench bench-solver bench-blender fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -52,6 +52,9 @@ fuzz: $(READY) ## search for texts that break the language, for SECONDS=60; on L
 fuzz-bvh: $(READY) ## look for recordings that break reading and retargeting, for SECONDS=60
 	@$(RUN) -c "import atheris" 2>/dev/null || $(RUN) -m pip install --quiet -c constraints.txt atheris
 	@$(RUN) tests/fuzz/search.py bvh $(SECONDS)
+
+fuzz-bodies: $(READY) ## damage files of bodies at random and import them, for SECONDS=60
+	@$(RUN) tests/fuzz/search_bodies.py $(SECONDS)
 
 examples: $(READY) ## compile every example to every format but films, into out/examples
 	@$(RUN) examples/build.py --out out/examples

@@ -12,7 +12,7 @@ from search import BVH, TEXTS
 
 from azee_grammar.source import Source
 
-REGRESSIONS = sorted((Path(__file__).parent / "regressions").iterdir())
+REGRESSIONS = sorted((Path(__file__).parent / "regressions").glob("*.azee"))
 RECORDINGS = sorted((Path(__file__).parent / "bvh").iterdir())
 
 

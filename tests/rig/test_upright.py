@@ -143,9 +143,12 @@ def test_arms_of_two_lengths_are_told(body: Body, share: float, doubted: bool) -
     assert any("the left f_arm is" in doubt for doubt in doubts) == doubted
 
 
-def test_toes_that_point_backwards_are_told(body: Body) -> None:
+@pytest.mark.parametrize(
+    ("ahead_m", "doubted"), [(0.12, False), (0.0, False), (-0.01, False), (-0.03, True)]
+)
+def test_toes_that_point_backwards_are_told(body: Body, ahead_m: float, doubted: bool) -> None:
     toes = [
-        (f"{side}ToeBase", body.names.index(f"{side}Foot"), (0.0, -0.05, 0.12))
+        (f"{side}ToeBase", body.names.index(f"{side}Foot"), (0.0, -0.05, ahead_m))
         for side in ("Left", "Right")
     ]
     walking = replace(
@@ -154,7 +157,5 @@ def test_toes_that_point_backwards_are_told(body: Body) -> None:
         parents=(*body.parents, *(foot for _, foot, _ in toes)),
         places=np.vstack([body.places, *(body.places[foot] + way for _, foot, way in toes)]),
     )
-    bones = propose(_tree(walking))
-    assert _doubts(walking, bones) == []
-    mirrored = walking.places * (1.0, 1.0, -1.0)
-    assert "the toes point backwards" in _doubts(walking, bones, mirrored)[-1]
+    doubts = _doubts(walking, propose(_tree(walking)))
+    assert any("the toes point backwards" in doubt for doubt in doubts) == doubted

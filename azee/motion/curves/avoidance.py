@@ -254,8 +254,9 @@ class _OffsetSearch:
         for _ in range(MAX_ITERATIONS):
             if np.max(error) <= enough:
                 break
-            lhs = J.T @ J + (OFFSET_WEIGHT_M**2 + damping) * np.eye(len(c))
-            step = -np.linalg.solve(lhs, J.T @ error + OFFSET_WEIGHT_M**2 * c)
+            lhs, rhs = _normal_equations(J, error)
+            lhs += (OFFSET_WEIGHT_M**2 + damping) * np.eye(len(c))
+            step = -np.linalg.solve(lhs, rhs + OFFSET_WEIGHT_M**2 * c)
             step *= min(1.0, MAX_STEP_RAD / max(1e-9, float(np.max(np.abs(step)))))
             new_error, new_J = self._errors(c + step, pairs, allowed)
             if np.sum(new_error**2) < np.sum(error**2):
@@ -293,3 +294,14 @@ class _OffsetSearch:
         counts = (wanted == q)[:, None, self.members] & (beyond > 0.0)[..., None]
         J = gradients * self.weights[:, None, :] * counts
         return np.maximum(beyond, 0.0).ravel(), J.reshape(beyond.size, -1)
+
+
+def _normal_equations(J: Array, error: Array) -> tuple[Array, Array]:
+    """Return Jᵀ J, (n, n), and Jᵀ e, (n,), of slopes (R, n) that are zero where errors (R,) are.
+
+    Without BLAS, which may share products of this size among threads: their number could then
+    show in the result, and on busy cores they wait for each other longer than the product takes.
+    """
+    rows = np.flatnonzero(error)
+    columns = np.ascontiguousarray(J[rows].T)
+    return np.einsum("ir,jr->ij", columns, columns), np.einsum("ir,r->i", columns, error[rows])

@@ -19,6 +19,7 @@ MODULES = {
     "motion": "benchmarks.motion_length",
     "prompt": "benchmarks.prompt",
     "frames": "benchmarks.frames",
+    "threads": "benchmarks.threads",
     "continuity": "benchmarks.continuity",
     "penetration": "benchmarks.penetration",
     "solver": "benchmarks.solver_bench",

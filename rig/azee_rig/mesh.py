@@ -108,13 +108,14 @@ class BodyMesh:
     @cached_property
     def normals(self) -> Floats:
         """Unit vertex normals (N, 3) in the mesh's own posture."""
-        return vertex_normals(self.vertices, self.triangles)
+        return frozen(vertex_normals(self.vertices, self.triangles), np.float64)
 
     @cached_property
     def dense_weights(self) -> Floats:
         """Skin weights as a matrix (N, J): one product poses the whole mesh."""
         matrix = np.zeros((len(self.vertices), self.joint_count))
         np.add.at(matrix, (np.arange(len(self.vertices))[:, None], self.joints), self.weights)
+        matrix.setflags(write=False)
         return matrix
 
     def unit(self, name: str) -> tuple[Ints, Floats]:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
+from typing import Any, TypeAlias
+from weakref import WeakKeyDictionary, WeakValueDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +21,12 @@ from azee_rig.skeleton import Pose, Skeleton, frozen
 from azee_rig.skin import joint_frames, skin
 
 Floats = NDArray[np.float64]
+Stamp: TypeAlias = tuple[tuple[str, int, int], ...]
+"""State of a folder: name, modification time in nanoseconds and size of each file, sorted."""
+
+SHIPPED = Path(__file__).absolute().parent / "data"
+"""The folders of the bodies that ship."""
+MESH = "mesh.npz"
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +139,9 @@ class Landmarks:
 class Rig:
     """A body, with the maps from AZee's names to it.
 
+    It is immutable and can be shared; a copy is the rig itself. A pickle leaves out the mesh,
+    which is read from `folder` again.
+
     bones: all 44 AZee bones. sites: AZee's body sites. signing_space: world points (3,) Mssp,
     Rssp, Lssp and addressee. skeletal_morphs: radians that a morph of weight 1 adds to each
     coordinate. face_morphs: weights that a morph of weight 1 adds to each face unit.
@@ -156,10 +168,27 @@ class Rig:
     lids: Mapping[str, tuple[str, float]]
     folder: Path
 
+    def __post_init__(self) -> None:
+        for f in fields(self):
+            object.__setattr__(self, f.name, _fixed(getattr(self, f.name)))
+
+    def __copy__(self) -> Rig:
+        return self
+
+    def __deepcopy__(self, _: dict[int, Any]) -> Rig:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        state = {f.name: _plain(getattr(self, f.name)) for f in fields(self)}
+        folder = state["folder"]
+        if isinstance(folder, Path) and folder.parent == SHIPPED:
+            state["folder"] = folder.name  # the reader may be installed elsewhere
+        return _restored, (state, _STAMPS.get(self))
+
     @cached_property
     def mesh(self) -> BodyMesh:
         """The body's surface."""
-        return read_mesh(self.folder / "mesh.npz")
+        return read_mesh(self.folder / MESH)
 
     def pose(self, q: Floats) -> Pose:
         """Local rotations of the body's joints for coordinates q (…, V), radians.
@@ -194,3 +223,48 @@ class Rig:
                 weights[self.units.index(unit)] = weight
             unit_weights = weights
         return skin(self.mesh, self.skeleton, pose, unit_weights)
+
+
+_SHARED: WeakValueDictionary[tuple[Path, Stamp], Rig] = WeakValueDictionary()
+_STAMPS: WeakKeyDictionary[Rig, Stamp] = WeakKeyDictionary()
+"""Rigs in use that were loaded, here or before they were pickled, and the state of their folder."""
+
+
+def shared(rig: Rig, stamp: Stamp) -> Rig:
+    """Return the rig in use that was read from the same state of the same folder, else this one."""
+    one = _SHARED.setdefault((rig.folder, stamp), rig)
+    _STAMPS[one] = stamp
+    return one
+
+
+def _restored(state: dict[str, Any], stamp: Stamp | None) -> Rig:
+    """Return the rig that was pickled."""
+    folder = state["folder"]
+    rig = Rig(**state | {"folder": SHIPPED / folder if isinstance(folder, str) else folder})
+    _make_read_only(rig)  # numpy's pickles forget that arrays were
+    return rig if stamp is None else shared(rig, stamp)
+
+
+def _fixed(value: Any) -> Any:
+    """Return a mapping, and mappings in it, as read-only views of copies."""
+    if not isinstance(value, Mapping):
+        return value
+    return MappingProxyType({key: _fixed(inner) for key, inner in value.items()})
+
+
+def _plain(value: Any) -> Any:
+    """Return a mapping, and mappings in it, as dictionaries, which can be pickled."""
+    if not isinstance(value, Mapping):
+        return value
+    return {key: _plain(inner) for key, inner in value.items()}
+
+
+def _make_read_only(value: Any) -> None:
+    if isinstance(value, np.ndarray):
+        value.setflags(write=False)
+    elif is_dataclass(value):
+        for f in fields(value):
+            _make_read_only(getattr(value, f.name))
+    elif isinstance(value, Mapping | tuple):
+        for inner in value.values() if isinstance(value, Mapping) else value:
+            _make_read_only(inner)

@@ -26,11 +26,12 @@ from azee.motion.tasks.key_selection import MODES, KeySelection, Mode
 from azee.motion.tasks.limbs import Limbs
 from azee.motion.tasks.schedule import TaskSchedule, bind
 from azee.motion.tasks.tracks import Track, tracks
-from azee.quality.measures import block_times, peaks, penetrations
+from azee.quality.measures import PenetrationSearch, block_times, peaks
 from azee.quality.motion_report import MotionReport, constraint_results, limit_excess
 from azee.score.score import Score
 from azee_rig.rig import Rig
 from azee_solver.evaluate import Evaluator
+from azee_solver.evaluate import evaluator as evaluator_of
 from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
 from azee_solver.solve import solve
@@ -79,7 +80,7 @@ def animate(
         raise ValueError(f"there is no mode '{mode}'; the modes are: {', '.join(MODES)}")
     if not (math.isfinite(fps) and fps > 0):
         raise ValueError(f"{fps} frames per second make no clip")
-    evaluator = Evaluator(rig, dominant)
+    evaluator = evaluator_of(rig, dominant)
     selection = KeySelection(Limbs.of(rig.coordinates), mode)
     rate = Fraction(fps)
 
@@ -122,7 +123,7 @@ def animate(
         postures=planned.postures,
         blocks=tuple(block_times(schedule.all, planned.monitor.early_ends)),
         peaks=peaks(q, float(fps), rig.coordinates.names, lead_s),
-        measure_penetration=lambda: penetrations(rig, q, times, planned.avoidance),
+        measure_penetration=PenetrationSearch(rig, dominant, schedule, clip.coordinates, times),
     )
     key_times = tuple(float(p.time) + lead_s for p in planned.postures)
     by_block = tracks(schedule, planned.postures, selection, rig.coordinates)

@@ -10,8 +10,12 @@ from numpy.typing import NDArray
 
 from azee.motion.curves.avoidance import CollisionAvoidance
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
+from azee.motion.tasks.interval_index import IntervalIndex
+from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import EarlyEnd, TimedTask
 from azee_rig.rig import Rig
+from azee_solver.evaluate import evaluator as evaluator_of
+from azee_solver.geometry import Side
 from azee_solver.penetration import mesh_penetration
 
 Array = NDArray[np.float64]
@@ -95,6 +99,27 @@ class Penetration:
             "on": self.on,
             "intended": self.intended,
         }
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PenetrationSearch:
+    """Finds the penetrations of one clip when called. It can be pickled.
+
+    coordinates: (T, V) radians. times_s: (T,) on the score's time line.
+    """
+
+    rig: Rig
+    dominant: Side
+    schedule: TaskSchedule
+    coordinates: Array
+    times_s: Array
+
+    def __call__(self) -> tuple[Penetration, ...]:
+        """Find penetration in every frame."""
+        evaluator = evaluator_of(self.rig, self.dominant)
+        overlaps = CapsuleOverlaps(evaluator)
+        avoidance = CollisionAvoidance(evaluator, self.schedule, IntervalIndex(()), overlaps)
+        return penetrations(self.rig, self.coordinates, self.times_s, avoidance)
 
 
 def penetrations(

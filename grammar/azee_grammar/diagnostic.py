@@ -48,6 +48,10 @@ class AZeeError(Exception):
         super().__init__("; ".join(f"{d.code}: {d.message}" for d in diagnostics))
         self.diagnostics = diagnostics
 
+    def __reduce__(self) -> tuple[type[AZeeError], tuple[Diagnostic, ...]]:
+        """Pickle the diagnostics, from which the error is made again."""
+        return type(self), self.diagnostics
+
     def _render_traceback_(self) -> list[str]:
         """Show the diagnostics in the place of a traceback; notebooks ask for this by its name."""
         from azee_grammar.render import render

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
+from azee.arguments import (
+    folders,
+    rate,
+    require_one_of,
+    require_seed,
+    require_switch,
+    require_text,
+)
 from azee.formats import WRITERS, write_elan, writing
-from azee_grammar.diagnostic import AZeeError, Diagnostic
+from azee_grammar.diagnostic import AZeeError, Diagnostic, Severity
 
 if TYPE_CHECKING:
     from azee.animation import Animation
@@ -30,7 +37,14 @@ Method = Literal["grouped", "two-level"]
 
 @dataclass(frozen=True, eq=False)
 class Compilation:
-    """A score, the body that plays it, the motion, and what the motion is worth."""
+    """A score, the body that plays it, the motion, and the report on it.
+
+    It can be pickled and copied. A pickle leaves out the body's surface, which is read from the
+    body's folder when a file or a picture needs it.
+
+    score: nested blocks of constraints; times in seconds. rig: the body. animation: the clip and
+    the report, and the times of the keys of every part of the body.
+    """
 
     score: Score
     rig: Rig
@@ -38,12 +52,20 @@ class Compilation:
 
     @property
     def clip(self) -> Clip:
-        """The motion: coordinates and face weights over time."""
+        """The motion over T frames, read-only.
+
+        times: (T,) seconds. coordinates: (T, V) radians, in the order of
+        `rig.coordinates.names`. unit_weights: (T, M) of the face units that move.
+        """
         return self.animation.clip
 
     @property
     def report(self) -> MotionReport:
-        """Every constraint with its residual, limits and penetration."""
+        """Every constraint with its residual, metres or radians; limits and penetration.
+
+        `report.met` says whether all constraints are within tolerance; `report.as_json()` is what
+        `save_report` writes. Penetration in the clip is measured when it is first read.
+        """
         return self.animation.report
 
     def save_report(self, path: str | Path) -> None:
@@ -60,8 +82,10 @@ class Compilation:
     def save(self, path: str | Path, *, media: str | Path | None = None) -> None:
         """Write a file whose suffix names the format: one of `SUFFIXES` or `FILM_SUFFIXES`.
 
-        Args: media: the film that an ELAN file (.eaf) is to show beside the score.
-        Raises: ValueError: no format has that suffix. AZeeError: cannot-write, not-installed.
+        Args: path: may exist, its folder must. media: the film that an ELAN file (.eaf) shows
+            beside the score; other formats ignore it.
+        Raises: ValueError: no format has that suffix. AZeeError: cannot-write; not-installed: a
+            film needs the extra `film`; clip-times: a film would have too many frames.
         """
         write = WRITERS.get(Path(path).suffix.lower())
         if write is None:
@@ -74,8 +98,8 @@ class Compilation:
 
 
 def compile(  # noqa: A001 - azee.compile, as re.compile
-    text_or_path: str | Path,
-    rig: str | Path = "signer",
+    text_or_path: str | Path | None = None,
+    rig: str | Path | Rig = "signer",
     *,
     expression: str | None = None,
     utterance: int | None = None,
@@ -89,30 +113,43 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
 ) -> Compilation:
     """Compile AZee to a signing body.
 
-    Args: text_or_path: a `Path`, or a text; a string of one line that ends in .azee or .az is
-        taken for a path. rig: name of a rig that ships, or a rig's folder. expression: one to
-        compile instead of the text's own utterances. utterance: number from 1 of the only one to
-        compile; all play one after the other by default. libraries: folders that `use` looks in.
-        dominant: the signer's strong hand. fps: frames per second. seed, life: of breathing and
-        blinking, and whether there is any. solver: how postures are found; two-level is the method
-        of Nunnari et al. 2018, for comparison.
-    Raises: AZeeError: the text is at fault, as its diagnostics tell.
-        RigError: there is no such rig.
+    The same arguments give the same clip. A process reads each body once, and again when a file
+    in the body's folder changes.
+
+    Args: text_or_path: the text, or the path of a file. A string of one line that ends in .azee
+            or .az is a path. Optional if there is an expression.
+        rig: the name of a rig that ships (`azee_rig.load.shipped_rigs()`), a rig's folder, or a
+            loaded rig.
+        expression: is compiled instead of the text's utterances. It sees the rules of the text.
+        utterance: the number, from 1, of the one utterance to compile. By default all are
+            compiled, one after the other, with a pause of one second.
+        libraries: folders in which `use` looks for libraries, after the folder of the text.
+        dominant: the signer's strong hand, right or left.
+        fps: frames per second, at least 1.
+        mode: how blocks become movement. tracks: each block keys the limbs that it needs. flat:
+            every key is a key of the whole body, as in Nunnari et al. 2018.
+        seed: of the random numbers for breathing, blinking and sway; a whole number from 0 on.
+        life: whether the signer breathes, blinks and sways.
+        solver: how postures are found. grouped: problems that share coordinates are solved
+            together. two-level: the iteration of Nunnari et al. 2018, for comparison.
+    Raises: AZeeError: the text has mistakes, or has no such utterance; cannot-read: there is no
+            such file; rig-lacks-bone, rig-lacks-site, rig-lacks-morph: the rig lacks something
+            that the text names; clip-times: the clip would have more than 500,000 frames.
+        RigError: the rig does not exist or cannot be read. It is a ValueError.
+        ValueError: an argument has a wrong value or type; the message says what is allowed.
     """
     from azee.lang.program import load
     from azee_rig.load import load_rig
+    from azee_rig.rig import Rig
 
-    program = load(_source(text_or_path), [Path(folder) for folder in libraries])
+    require_text(text_or_path, expression, utterance)
+    _require_options(dominant, fps, mode, seed, life, solver)
+    found = folders(libraries)
+    body = rig if isinstance(rig, Rig) else load_rig(rig)
+    program = load(_source(text_or_path), found)
     score = score_of(program, expression, utterance, dominant)
     return perform(
-        score,
-        load_rig(rig),
-        dominant=dominant,
-        fps=fps,
-        mode=mode,
-        seed=seed,
-        life=life,
-        solver=solver,
+        score, body, dominant=dominant, fps=fps, mode=mode, seed=seed, life=life, solver=solver
     )
 
 
@@ -121,11 +158,14 @@ def score_of(
 ) -> Score:
     """Return the score of an expression, else of one utterance, else of all in sequence.
 
-    Raises: AZeeError: all that is wrong with the text.
+    Raises: AZeeError: all mistakes in the text, also where an expression is given.
     """
-    if expression is not None:
-        return program.evaluate(expression).score
-    return program.score(utterance, _side(dominant))
+    if expression is None:
+        return program.score(utterance, _side(dominant))
+    found = program.check(_side(dominant))
+    if any(d.severity is Severity.ERROR for d in found):
+        raise AZeeError(*found)
+    return program.evaluate(expression).score
 
 
 def perform(
@@ -139,21 +179,22 @@ def perform(
     life: bool = True,
     solver: Method = "grouped",
 ) -> Compilation:
-    """Make a body play a score.
+    """Make a body play a score. The options are those of `compile`.
 
     Raises: AZeeError: the rig lacks what the score names, or `clip-times`: too many frames.
+        ValueError: an option has a wrong value or type.
     """
     from azee.animation import animate
     from azee.clip.resample import TooManyFramesError, frame_count
 
+    _require_options(dominant, fps, mode, seed, life, solver)
     if missing := lacks(score, rig, dominant):
         raise AZeeError(*missing)
-    if math.isfinite(fps) and fps > 0:
-        try:
-            frame_count(float(score.duration), fps)
-        except TooManyFramesError as error:
-            hint = "give fewer --fps, or compile one --utterance at a time"
-            raise AZeeError(Diagnostic("clip-times", str(error), None, help=hint)) from error
+    try:
+        frame_count(float(score.duration), fps)
+    except TooManyFramesError as error:
+        hint = "give fewer --fps, or compile one --utterance at a time"
+        raise AZeeError(Diagnostic("clip-times", str(error), None, help=hint)) from error
     side = _side(dominant)
     postures = None
     if solver == "two-level":
@@ -161,17 +202,32 @@ def perform(
 
         postures = two_level_solver(rig, side)
     animation = animate(
-        score, rig, fps=fps, dominant=side, mode=mode, seed=seed, life=life, solver=postures
+        score, rig, fps=rate(fps), dominant=side, mode=mode, seed=seed, life=life, solver=postures
     )
     return Compilation(score, rig, animation)
+
+
+def _require_options(
+    dominant: object, fps: object, mode: object, seed: object, life: object, solver: object
+) -> None:
+    """Raise ValueError for the first option with a wrong value or type."""
+    from azee.motion.tasks.key_selection import MODES
+
+    require_one_of(dominant, get_args(Hand), "dominant hand", "hands")
+    require_one_of(mode, MODES, "mode", "modes")
+    require_one_of(solver, get_args(Method), "solver", "solvers")
+    rate(fps)
+    require_seed(seed)
+    require_switch(life, "life")
 
 
 def lacks(score: Score, rig: Rig, dominant: Hand = "right") -> tuple[Diagnostic, ...]:
     """Return what a score names and a rig has not, each name once."""
     from azee.score.score import Key, leaves
-    from azee_solver.binding import Binding, BindingError
+    from azee_solver.binding import BindingError
+    from azee_solver.evaluate import evaluator
 
-    binding = Binding(rig, _side(dominant))
+    binding = evaluator(rig, _side(dominant)).binding
     found: dict[str, Diagnostic] = {}
     for leaf in leaves(score):
         for constraint in leaf.score.constraints if isinstance(leaf.score, Key) else ():
@@ -190,10 +246,12 @@ def _lacking(error: BindingError, rig: Rig) -> Diagnostic:
     return Diagnostic(error.code, message, None, notes=written)
 
 
-def _source(text_or_path: str | Path) -> Source:
+def _source(text_or_path: str | Path | None) -> Source:
     from azee_grammar.files import TEXT_SUFFIXES, read_source
     from azee_grammar.source import Source
 
+    if text_or_path is None:
+        return Source("<none>", "")
     if isinstance(text_or_path, str):
         one_line = "\n" not in text_or_path.strip()
         if not (one_line and text_or_path.strip().endswith(TEXT_SUFFIXES)):

@@ -9,9 +9,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from azee.cli.console import has_errors
-from azee_grammar.diagnostic import AZeeError
-
 if TYPE_CHECKING:
     from azee.compilation import Hand
     from azee.lang.program import Program
@@ -101,8 +98,6 @@ class Text:
         """Evaluate what is wanted. Raises: AZeeError: all that is wrong with it."""
         from azee.compilation import score_of
 
-        if self.expression is not None and has_errors(found := self.program.check()):
-            raise AZeeError(*found)
         return score_of(self.program, self.expression, self.utterance, dominant)
 
     @property

@@ -73,9 +73,11 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.formats": {"azee.animation", "azee.clip", "azee.export", "azee.motion", "azee.score"}
     | {"azee_grammar", "azee_rig"},
     "azee.clips": {"azee.clip", "azee.formats", "azee_grammar", "azee_rig"},
+    "azee.arguments": set(),
     "azee.compilation": {
-        *("azee.animation", "azee.clip", "azee.export.files", "azee.formats", "azee.lang"),
-        *("azee.motion", "azee.quality", "azee.score", "azee_grammar", "azee_rig", "azee_solver"),
+        *("azee.animation", "azee.arguments", "azee.clip", "azee.export.files", "azee.formats"),
+        *("azee.lang", "azee.motion", "azee.quality", "azee.score"),
+        *("azee_grammar", "azee_rig", "azee_solver"),
     },
     "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},
     "azee.notebook": {*OURS, "numpy", "PIL"},

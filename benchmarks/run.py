@@ -20,6 +20,7 @@ MODULES = {
     "prompt": "benchmarks.prompt",
     "frames": "benchmarks.frames",
     "threads": "benchmarks.threads",
+    "memory": "benchmarks.memory",
     "continuity": "benchmarks.continuity",
     "penetration": "benchmarks.penetration",
     "solver": "benchmarks.solver_bench",

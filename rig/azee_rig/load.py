@@ -85,10 +85,7 @@ def _stamp(folder: Path) -> Stamp:
 @lru_cache(maxsize=MOST_KEPT)
 def _loaded(folder: Path, stamp: Stamp, ships: bool) -> Rig:
     """Read a rig. The stamp is part of the cache's key."""
-    rig = _read(folder, ships=ships)
-    if not (folder / MESH).is_file():
-        raise FileNotFoundError(f"{MESH} is missing")
-    return shared(rig, stamp)
+    return shared(_read(folder, ships=ships), stamp)
 
 
 def _read(folder: Path, *, ships: bool) -> Rig:
@@ -109,6 +106,8 @@ def _check_digest(content: Mapping[str, object], mesh: Path) -> bool:
     try:
         data = mesh.read_bytes()
     except OSError as error:
+        if isinstance(error, FileNotFoundError):
+            raise ValueError(f"{mesh.name} is missing") from error
         raise ValueError(f"its {mesh.name} cannot be read: {error.strerror}") from error
     if MESH_DIGEST not in content:
         return False

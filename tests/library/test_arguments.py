@@ -125,7 +125,7 @@ def test_numbers_of_numpy_and_exact_rates_are_numbers() -> None:
     for fps in (np.float32(30), np.float64(30), np.int64(30), Fraction(30)):
         np.testing.assert_array_equal(azee.compile(TEXT, fps=fps).clip.times, plain)  # type: ignore[arg-type]
     seeds = [azee.compile(TEXT, seed=seed).clip.coordinates for seed in (7, np.int64(7))]  # type: ignore[arg-type]
-    np.testing.assert_array_equal(*seeds)
+    np.testing.assert_array_equal(seeds[0], seeds[1])
 
 
 def test_a_body_that_was_loaded_is_a_body(signer: Rig) -> None:

@@ -288,7 +288,7 @@ def test_two_postures_that_share_an_instant_are_told_apart() -> None:
     found = results(animation)
     assert found["B place"].met
     assert not found["A place"].met
-    assert "gives way" in str(found["A place"].reason)
+    assert "ends early" in str(found["A place"].reason)
     assert "to B" in str(found["A place"].reason)
     step = np.abs(np.diff(animation.clip.coordinates, axis=0)).max() * 30
     assert step < math.radians(900)

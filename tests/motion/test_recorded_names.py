@@ -138,7 +138,7 @@ def test_arms_of_different_length_are_told() -> None:
     [
         ("LUArm", "arm", "L"), ("RUArm", "arm", "R"), ("LFArm", "f_arm", "L"),
         ("Ted:RFArm", "f_arm", "R"), ("LF_Arm", "arm", "L"), ("lf_hand", "palm", "L"),
-        ("Ab", "spine", ""), ("FirstSpine", "", ""), ("LeftFirstMC", "digit", "L"),
+        ("Ab", "spine", ""), ("FirstSpine", "", ""), ("LeftFirstMC", "finger", "L"),
     ],
 )  # fmt: skip
 def test_what_a_name_says(name: str, kind: str, side: str) -> None:
@@ -147,9 +147,7 @@ def test_what_a_name_says(name: str, kind: str, side: str) -> None:
 
 
 def test_counted_fingers() -> None:
-    assert [read_name(f"Right{n}PP").digit for n in ("First", "Second", "Fifth")] == [
-        "thumb", "index", "little"
-    ]  # fmt: skip
+    assert [read_name(f"Right{n}PP").digit for n in ("First", "Second", "Fifth")] == ["1", "2", "5"]
     assert read_name("LeftSecondMC").metacarpal
     assert not read_name("LeftSecondMP").metacarpal
     assert len(SIDES) == 2

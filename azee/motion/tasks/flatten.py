@@ -19,7 +19,7 @@ from typing import TypeAlias
 
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.requirement import Requirement
-from azee.score.score import Block, Group, Hold, Key, Leaf, Score, leaves
+from azee.score.score import Blank, Block, Group, Hold, Key, Leaf, Score, leaves
 from azee_solver.constraint import Transpath, Trill
 
 
@@ -85,7 +85,7 @@ def _required(
                 )
         case Hold():
             yield from _held(leaf, leaf.score, inside, holding)
-        case _:
+        case Blank():
             pass
 
 

@@ -55,7 +55,7 @@ DIGITS = {
 }
 KINDS = {
     "pelvis": "pelvis hips hip cog hipscontrol",
-    "spine": """spine chest upperchest lowerchest torso lowerback upperback lowback back abdomen
+    "spine": """spine chest upperchest lowerchest torso lowerback upperback lowback back abdomen ab
         waist thorax ribcage ribs stomach spinelower spineupper spinemid belly""",
     "neck": "neck lowerneck upperneck necklower neckupper",
     "head": "head skull",

@@ -9,7 +9,7 @@ import pytest
 from stick_signer import FINGERS, bent, stick_signer
 
 from azee.clip.bvh import parse_bvh
-from azee.clip.digits import SIDES, DigitFit
+from azee.clip.digits import DigitFit
 from azee.clip.retarget_source import Measured, measure_recording
 from azee_rig.importing.names import read_name
 from azee_rig.rig import Rig
@@ -147,7 +147,12 @@ def test_what_a_name_says(name: str, kind: str, side: str) -> None:
 
 
 def test_counted_fingers() -> None:
-    assert [read_name(f"Right{n}PP").digit for n in ("First", "Second", "Fifth")] == ["1", "2", "5"]
-    assert read_name("LeftSecondMC").metacarpal
-    assert not read_name("LeftSecondMP").metacarpal
-    assert len(SIDES) == 2
+    """By their bones, as Xsens' segments, or by their joints."""
+    for bone in ("PP", "MCP"):
+        found = [read_name(f"Right{n}{bone}") for n in ("First", "Second", "Fifth")]
+        assert [(read.kind, read.digit) for read in found] == [
+            ("finger", "1"), ("finger", "2"), ("finger", "5")
+        ]  # fmt: skip
+        assert not any(read.metacarpal for read in found)
+    for bone in ("MC", "CMC"):
+        assert read_name(f"LeftSecond{bone}").metacarpal

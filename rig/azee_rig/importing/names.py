@@ -25,7 +25,7 @@ FEW = 6
 """In a skeleton of fewer joints nothing is common."""
 _LETTER_SIDE = re.compile(r"(?<![A-Z])([LR])(?=[A-Z]?[A-Z][a-z])")
 _ORDINALS = {"first": "1", "second": "2", "third": "3", "fourth": "4", "fifth": "5"}
-_PHALANGES = _words("mc pp mp dp")
+_PHALANGES = _words("mc pp mp dp cmc mcp pip dip")
 _WORD = re.compile(r"[A-Z]+(?=[A-Z][a-z])|[A-Z]?[a-z]+|[A-Z]+|\d+")
 _SIDES = {"l": "L", "left": "L", "lf": "L", "lft": "L", "r": "R", "right": "R", "rt": "R"}
 _PREFIXES = _words(
@@ -39,7 +39,7 @@ _NOT_BONES = _words(
     jaw lip tongue teeth hair breast bust skirt cloth ear cheek nose chin mouth"""
 )
 _FILLERS = _words("finger fingers f proximal intermediate distal prox inter dist")
-_METACARPAL = _words("metacarpal meta carpal inhand palm metacarpals mc")
+_METACARPAL = _words("metacarpal meta carpal inhand palm metacarpals mc cmc")
 DIGITS = {
     "thumb": "thumb",
     "index": "index",
@@ -55,8 +55,8 @@ DIGITS = {
 }
 KINDS = {
     "pelvis": "pelvis hips hip cog hipscontrol",
-    "spine": """spine chest upperchest lowerchest torso lowerback upperback lowback back abdomen ab
-        waist thorax ribcage ribs stomach spinelower spineupper spinemid belly""",
+    "spine": """spine chest upperchest lowerchest torso lowerback upperback lowback back abdomen
+        waist thorax ribcage ribs stomach ab spinelower spineupper spinemid belly""",
     "neck": "neck lowerneck upperneck necklower neckupper",
     "head": "head skull",
     "clav": "clavicle collar collarbone clav scapula",

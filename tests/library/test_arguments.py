@@ -116,16 +116,17 @@ def test_an_expression_needs_no_text() -> None:
 def test_an_expression_sees_the_text_and_does_not_hide_what_is_wrong_with_it() -> None:
     text = "def nod\n    key .4 (rotate !head ^left 20)\n"
     assert azee.compile(text, expression=":nod", life=False).score.duration == Fraction(2, 5)
-    with pytest.raises(azee.AZeeError, match="unknown-name"):
-        azee.compile("def nod\n    key 1 (look ^nowhere)\n", expression="key .2 (look ^fwd)")
+    for wrong in ("def nod\n    key 1 (look ^nowhere)\n", "key 1 (look ^nowhere)\n"):
+        with pytest.raises(azee.AZeeError, match="unknown-name"):
+            azee.compile(wrong, expression="key .2 (look ^fwd)")
 
 
 def test_numbers_of_numpy_and_exact_rates_are_numbers() -> None:
     plain = azee.compile(TEXT, fps=30).clip.times
     for fps in (np.float32(30), np.float64(30), np.int64(30), Fraction(30)):
         np.testing.assert_array_equal(azee.compile(TEXT, fps=fps).clip.times, plain)  # type: ignore[arg-type]
-    seeds = [azee.compile(TEXT, seed=seed).clip.coordinates for seed in (7, np.int64(7))]  # type: ignore[arg-type]
-    np.testing.assert_array_equal(seeds[0], seeds[1])
+    one = azee.compile(TEXT, seed=7).clip.coordinates
+    np.testing.assert_array_equal(azee.compile(TEXT, seed=np.int64(7)).clip.coordinates, one)  # type: ignore[arg-type]
 
 
 def test_a_body_that_was_loaded_is_a_body(signer: Rig) -> None:

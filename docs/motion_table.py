@@ -19,7 +19,7 @@ PAGE = HERE / "motion.md"
 BEGIN, END = "<!-- table: python docs/motion_table.py -->", "<!-- end of the table -->"
 FPS = 60.0
 SHOWS_M = 0.003
-"""Deeper penetration is told."""
+"""Deeper penetration is reported."""
 HEAD = (
     "| example | mode | keys | solved | every frame | missed | speed °/s | acceleration °/s² "
     "| jerk °/s³ | penetration mm |"

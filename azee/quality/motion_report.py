@@ -182,8 +182,8 @@ def _reason(task: TimedTask, plan: Plan, residual: float) -> str:
     early = plan.monitor.early_ends.get(task.rank)
     if early is not None:
         return (
-            f"ends early, at {float(early.time):.3f} s to {'/'.join(early.successor)}, "
-            "which starts at the instant this ends and wants another posture"
+            f"ends early, at {float(early.time):.3f} s: {'/'.join(early.successor)} "
+            "starts at the instant this ends and needs another posture"
         )
     worst, found = -math.inf, None
     for posture in plan.postures:

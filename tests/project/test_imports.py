@@ -56,7 +56,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     },
     "azee.motion": set(),
     "azee.wording": set(),
-    "azee.quality": {"azee.motion", "azee.wording", "azee_solver", "azee_rig", "numpy"},
+    "azee.quality": {
+        *("azee.clip", "azee.motion", "azee.score", "azee.wording"),
+        *("azee_solver", "azee_rig", "numpy"),
+    },
     "azee.animation": {"azee.clip", "azee.motion", "azee.quality", "azee.score"}
     | {"azee_solver", "azee_rig", "numpy"},
     "azee.export": {"azee.score", "azee.motion.tasks", "azee_rig"} | DECLARATIONS,

@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +27,10 @@ from azee.motion.tasks.key_selection import MODES, KeySelection, Mode
 from azee.motion.tasks.limbs import Limbs
 from azee.motion.tasks.schedule import TaskSchedule, bind
 from azee.motion.tasks.tracks import Track, tracks
+from azee.quality.likeness import likeness
 from azee.quality.measures import PenetrationSearch, block_times, peaks
 from azee.quality.motion_report import MotionReport, constraint_results, limit_excess
+from azee.quality.task_spans import task_spans
 from azee.score.score import Score
 from azee_rig.rig import Rig
 from azee_solver.evaluate import Evaluator
@@ -124,6 +127,15 @@ def animate(
         blocks=tuple(block_times(schedule.all, planned.monitor.early_ends)),
         peaks=peaks(q, float(fps), rig.coordinates.names, lead_s),
         measure_penetration=PenetrationSearch(rig, dominant, schedule, clip.coordinates, times),
+        measure_likeness=partial(
+            likeness,
+            clip,
+            rig,
+            score,
+            task_spans(schedule.all, planned.monitor.early_ends),
+            zero_s=lead_s,
+            dominant=dominant,
+        ),
     )
     key_times = tuple(float(p.time) + lead_s for p in planned.postures)
     by_block = tracks(schedule, planned.postures, selection, rig.coordinates)

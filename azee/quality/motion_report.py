@@ -15,6 +15,7 @@ from azee.motion.keys.plan import Plan
 from azee.motion.keys.residual_monitor import TOLERANCE
 from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
+from azee.quality.likeness import Likeness
 from azee.quality.measures import CoordinatePeaks, Penetration
 from azee_rig.coordinates import Coordinates
 from azee_solver.constraint import Trill
@@ -80,6 +81,7 @@ class MotionReport:
 
     blocks: their times, and until when their constraints hold. peaks: largest speed, acceleration
     and jerk of the coordinates that move. measure_penetration: measures it in every frame.
+    measure_likeness: takes the figures of likeness.
     """
 
     rig: str
@@ -95,11 +97,17 @@ class MotionReport:
     blocks: tuple[Mapping[str, object], ...]
     peaks: tuple[CoordinatePeaks, ...]
     measure_penetration: Callable[[], tuple[Penetration, ...]]
+    measure_likeness: Callable[[], Likeness]
 
     @cached_property
     def clip_penetration(self) -> tuple[Penetration, ...]:
         """What penetrates what in any frame; measured when first asked for, as it takes long."""
         return self.measure_penetration()
+
+    @cached_property
+    def likeness(self) -> Likeness:
+        """How like a person's the movement is; measured when first asked for."""
+        return self.measure_likeness()
 
     @property
     def met(self) -> bool:
@@ -141,6 +149,7 @@ class MotionReport:
             "clip_penetration": [p.as_json() for p in self.clip_penetration],
             "blocks": [{**row} for row in self.blocks],
             "coordinates": [p.as_json() for p in self.peaks],
+            "likeness": self.likeness.as_json(),
         }
 
 

@@ -16,11 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.tasks.limbs import CARRIERS
-from azee.motion.tasks.timed_task import TimedTask
+from azee.motion.tasks.timed_task import EarlyEnd, TimedTask
 from azee_solver.constraint import Constraint, Transpath, Trill
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+
 
 @dataclass(frozen=True, slots=True)
 class TaskSpan:
@@ -49,19 +50,15 @@ class TaskSpan:
 
 
 def task_spans(
-    tasks: Iterable[TimedTask], blocks: Iterable[Mapping[str, object]]
+    tasks: Iterable[TimedTask], early_ends: Mapping[int, EarlyEnd]
 ) -> tuple[TaskSpan, ...]:
     """Return what a score asks of one body, in the order of the score.
 
-    Args: blocks: rows with the `path` of a block, and `held_until_s`, when it stops to be held.
+    Args: early_ends: by the rank of tasks that stop to hold before their blocks end.
     """
-    held = {
-        tuple(str(name) for name in _sequence(row["path"])): float(str(row["held_until_s"]))
-        for row in blocks
-    }
     out = []
     for task in tasks:
-        start, end = float(task.interval.start), float(task.interval.end)
+        early = early_ends.get(task.rank)
         out.append(
             TaskSpan(
                 path=task.path,
@@ -70,16 +67,11 @@ def task_spans(
                 limbs=task.limbs | {task.limb},
                 reads=task.read_limbs,
                 moves=task.dynamic or isinstance(task.constraint, Transpath | Trill),
-                start_s=start,
-                end_s=max(start, min(end, held.get(task.path, end))),
+                start_s=float(task.interval.start),
+                end_s=float(task.interval.end if early is None else early.time),
             )
         )
     return tuple(out)
-
-
-def _sequence(value: object) -> Sequence[object]:
-    assert isinstance(value, Sequence)
-    return value
 
 
 def asked(spans: Iterable[TaskSpan], limb: str, times_s: Array) -> Mask:

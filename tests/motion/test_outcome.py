@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from azee.quality.likeness import Likeness
 from azee.quality.motion_report import ConstraintResult, MotionReport
 from azee.quality.outcome import amount, misses, outcome, shortfall
 from azee.wording import counted
@@ -44,7 +45,12 @@ def report(met: int, missed: int) -> MotionReport:
         (),
         (),
         measure_penetration=tuple,
+        measure_likeness=unmeasured,
     )
+
+
+def unmeasured() -> Likeness:
+    raise AssertionError("an outcome needs no likeness")
 
 
 @pytest.mark.parametrize(

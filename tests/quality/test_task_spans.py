@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from movements import ARM_L, ARM_R, span
@@ -9,6 +11,8 @@ from movements import ARM_L, ARM_R, span
 from azee.lang.program import evaluate_expression
 from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.limbs import Limbs
+from azee.motion.tasks.schedule import bind
+from azee.motion.tasks.timed_task import EarlyEnd
 from azee.quality.task_spans import asked, asked_to_move, task_spans
 from azee_rig.rig import Rig
 from azee_solver.binding import Binding
@@ -50,14 +54,12 @@ sync
 
 
 def test_spans_say_what_a_score_asks(signer: Rig) -> None:
-    from azee.motion.tasks.timed_task import bind
-
     limbs = Limbs.of(signer.coordinates)
     bound = bind(
         flatten(evaluate_expression(TEXT).score), signer, Binding(signer, Side.RIGHT), limbs
     )
-    rows = [{"path": ["TO"], "held_until_s": 1.0}, {"path": ["FROM"], "held_until_s": 0.3}]
-    found = {s.path: s for s in task_spans(bound.all, rows)}
+    early = {t.rank: EarlyEnd(Fraction(1), ("NEXT",)) for t in bound.all if t.path == ("TO",)}
+    found = {s.path: s for s in task_spans(bound.all, early)}
     assert [p for p, s in found.items() if s.moves] == [("WAY",), ("SHAKE",)]
     assert [found["TO",].start_s, found["TO",].end_s] == pytest.approx([0.8, 1.0])
     assert found["WAY",].concerns("arm_R")

@@ -226,6 +226,15 @@ def test_a_way_gone_again_differs_by_what_was_planted(signer: Rig, percent: floa
     assert found.difference_percent == pytest.approx(wanted, abs=0.02)
 
 
+def test_each_way_is_compared_with_the_next(signer: Rig) -> None:
+    k = drawn(signer, 4.0, wrists={"R": then(*(moves(0.2, n, 0.5) for n in (0.5, 1.5, 2.5)))})
+    spans = [
+        span(n, n + 0.5, limbs=ARM_R, moving=True, constraint=STRAIGHT) for n in (0.5, 1.5, 2.5)
+    ]
+    found = repetitions(k, spans)
+    assert [(r.first_s, r.second_s) for r in found] == [(0.5, 1.5), (1.5, 2.5)]
+
+
 def test_another_way_is_no_repetition(signer: Rig) -> None:
     """Back again on a straight path too; a path of another kind is not compared at all."""
     k = drawn(signer, 3.0, wrists={"R": then(moves(0.3, 0.5, 0.5), moves(-0.3, 1.5, 0.5))})

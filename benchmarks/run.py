@@ -23,6 +23,7 @@ MODULES = {
     "memory": "benchmarks.memory",
     "continuity": "benchmarks.continuity",
     "penetration": "benchmarks.penetration",
+    "likeness": "benchmarks.likeness",
     "solver": "benchmarks.solver_bench",
 }
 

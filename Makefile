@@ -10,7 +10,7 @@ READY := $(ENV)/.ready
 PACKAGES := tests/node/node_modules/.package-lock.json
 TYPED := tests benchmarks examples
 
-.PHONY: motion-table readme-picture help demo test check format bench bench-solver bench-blender fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
+.PHONY: motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -43,6 +43,10 @@ bench-blender: $(READY) ## compare it with Blender and pinocchio too; installs t
 	@mkdir -p out
 	@$(RUN) benchmarks/run.py solver --prepare --json out/solver.json
 	@$(RUN) benchmarks/editor.py
+
+bench-tracker: $(READY) ## compare our films with people by a tracker, which it installs (1.2 GB)
+	@mkdir -p out
+	@$(RUN) -m benchmarks.tracker -o out/tracker.json
 
 SECONDS ?= 60
 fuzz: $(READY) ## search for texts that break the language, for SECONDS=60; on Linux

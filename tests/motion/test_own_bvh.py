@@ -82,8 +82,15 @@ def written_anew(recording: Recording, turn: Floats, scale: float) -> str:
     )
 
 
-@pytest.mark.parametrize("scale", [1.0, 100.0, 3.7])
-@pytest.mark.parametrize("turn", [np.eye(3), Z_UP, SKEW], ids=["as it was", "Z up", "skew"])
+@pytest.mark.parametrize(
+    ("turn", "scale"),
+    [
+        pytest.param(turn, scale, id=f"{name}-{scale}", marks=() if fast else pytest.mark.slow)
+        for name, turn in (("as it was", np.eye(3)), ("Z up", Z_UP), ("skew", SKEW))
+        for scale in (1.0, 100.0, 3.7)
+        for fast in [(name, scale) == ("Z up", 100.0)]
+    ],
+)
 def test_another_axis_up_and_another_unit_are_the_same_coordinates(
     signer: Rig, clip: Clip, recording: Recording, turn: Floats, scale: float, tmp_path: Path
 ) -> None:

@@ -229,6 +229,7 @@ def test_bvh_is_known_whatever_its_suffix(
     assert "there is no file" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_report_keeps_to_its_schema(signer: Rig, clip: Clip, tmp_path: Path) -> None:
     write_bvh(clip, signer, tmp_path / "clip.bvh")
     text = (tmp_path / "clip.bvh").read_text(encoding="ascii").replace("JOINT finger", "JOINT f")
@@ -244,6 +245,7 @@ def test_the_report_keeps_to_its_schema(signer: Rig, clip: Clip, tmp_path: Path)
         assert report["hands"]["L"]["wrist_m"]["max"] < 0.03 * report["arm_m"]
 
 
+@pytest.mark.slow
 def test_bvh_of_another_body_that_ships_is_that_bodys_clip(
     signer: Rig, clip: Clip, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

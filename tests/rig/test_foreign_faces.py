@@ -78,6 +78,7 @@ def test_the_end_of_another_word_is_no_name() -> None:
     assert not face.expressed
 
 
+@pytest.mark.slow
 def test_a_target_moves_the_vertices_that_the_file_says(tmp_path: Path, rigid: None) -> None:
     """In metres of the body that stands, though the file is in centimetres with z up."""
     unit = "jawOpen"

@@ -76,8 +76,9 @@ def animate(
     Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
         blinks, breaths and sway. life: whether there are any. solver: what solves key
         postures; `azee_solver.solve` if none is given.
-    Raises: BindingError: the rig lacks a bone, site or morph that the score names.
-        ValueError: an unknown mode or a frame rate that is none.
+    What names a bone, site or morph that the rig lacks is left out.
+
+    Raises: ValueError: an unknown mode or a frame rate that is none.
     """
     if mode not in MODES:
         raise ValueError(f"there is no mode '{mode}'; the modes are: {', '.join(MODES)}")

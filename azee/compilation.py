@@ -17,6 +17,7 @@ from azee.arguments import (
     require_text,
 )
 from azee.formats import WRITERS, write_elan, writing
+from azee.wording import counted
 from azee_grammar.diagnostic import AZeeError, Diagnostic, Severity
 
 if TYPE_CHECKING:
@@ -43,12 +44,14 @@ class Compilation:
     body's folder when a file or a picture needs it.
 
     score: nested blocks of constraints; times in seconds. rig: the body. animation: the clip and
-    the report, and the times of the keys of every part of the body.
+    the report, and the times of the keys of every part of the body. left_out: a warning for each
+    name of a bone, site or morph that the body lacks; constraints with that name were left out.
     """
 
     score: Score
     rig: Rig
     animation: Animation
+    left_out: tuple[Diagnostic, ...] = ()
 
     @property
     def clip(self) -> Clip:
@@ -68,6 +71,11 @@ class Compilation:
         """
         return self.animation.report
 
+    def report_json(self) -> dict[str, object]:
+        """Return the report as JSON, with the messages about what the body lacks."""
+        left_out = [{"code": d.code, "message": d.message} for d in self.left_out]
+        return {**self.report.as_json(), "left_out": left_out}
+
     def save_report(self, path: str | Path) -> None:
         """Write the report as JSON, as docs/formats.md describes it.
 
@@ -75,7 +83,7 @@ class Compilation:
         """
         from azee.export.files import replace_file
 
-        data = json.dumps(self.report.as_json(), indent=2, ensure_ascii=False, allow_nan=False)
+        data = json.dumps(self.report_json(), indent=2, ensure_ascii=False, allow_nan=False)
         with writing(path), replace_file(path) as file:
             file.write(f"{data}\n".encode())
 
@@ -110,6 +118,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     seed: int = 0,
     life: bool = True,
     solver: Method = "grouped",
+    strict_body: bool = False,
 ) -> Compilation:
     """Compile AZee to a signing body.
 
@@ -132,9 +141,12 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         life: whether the signer breathes, blinks and sways.
         solver: how postures are found. grouped: problems that share coordinates are solved
             together. two-level: the iteration of Nunnari et al. 2018, for comparison.
+        strict_body: whether to refuse a text that names a bone, site or morph that the body lacks.
+            By default such constraints are left out, with a warning for each name in `left_out`.
     Raises: AZeeError: the text has mistakes, or has no such utterance; cannot-read: there is no
             such file; rig-lacks-bone, rig-lacks-site, rig-lacks-morph: the rig lacks something
-            that the text names; clip-times: the clip would have more than 500,000 frames.
+            that the text names, and `strict_body` is set; clip-times: the
+            clip would have more than 500,000 frames.
         RigError: the rig does not exist or cannot be read. It is a ValueError.
         ValueError: an argument has a wrong value or type; the message says what is allowed.
     """
@@ -149,7 +161,15 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     program = load(_source(text_or_path), found)
     score = score_of(program, expression, utterance, dominant)
     return perform(
-        score, body, dominant=dominant, fps=fps, mode=mode, seed=seed, life=life, solver=solver
+        score,
+        body,
+        dominant=dominant,
+        fps=fps,
+        mode=mode,
+        seed=seed,
+        life=life,
+        solver=solver,
+        strict_body=strict_body,
     )
 
 
@@ -178,17 +198,21 @@ def perform(
     seed: int = 0,
     life: bool = True,
     solver: Method = "grouped",
+    strict_body: bool = False,
 ) -> Compilation:
     """Make a body play a score. The options are those of `compile`.
 
-    Raises: AZeeError: the rig lacks what the score names, or `clip-times`: too many frames.
+    Raises: AZeeError: the rig lacks what the score names, and `strict_body` is set; `clip-times`:
+        too many frames.
         ValueError: an option has a wrong value or type.
     """
     from azee.animation import animate
     from azee.clip.resample import TooManyFramesError, frame_count
 
     _require_options(dominant, fps, mode, seed, life, solver)
-    if missing := lacks(score, rig, dominant):
+    require_switch(strict_body, "strict_body")
+    missing = lacks(score, rig, dominant, strict=strict_body)
+    if missing and strict_body:
         raise AZeeError(*missing)
     try:
         frame_count(float(score.duration), fps)
@@ -204,7 +228,7 @@ def perform(
     animation = animate(
         score, rig, fps=rate(fps), dominant=side, mode=mode, seed=seed, life=life, solver=postures
     )
-    return Compilation(score, rig, animation)
+    return Compilation(score, rig, animation, missing)
 
 
 def _require_options(
@@ -221,29 +245,39 @@ def _require_options(
     require_switch(life, "life")
 
 
-def lacks(score: Score, rig: Rig, dominant: Hand = "right") -> tuple[Diagnostic, ...]:
-    """Return what a score names and a rig has not, each name once."""
+def lacks(
+    score: Score, rig: Rig, dominant: Hand = "right", *, strict: bool = False
+) -> tuple[Diagnostic, ...]:
+    """Return what a score names and a rig has not, each name once.
+
+    Args: strict: as errors; else as warnings that tell how many constraints are left out.
+    """
     from azee.score.score import Key, leaves
     from azee_solver.binding import BindingError
     from azee_solver.evaluate import evaluator
 
     binding = evaluator(rig, _side(dominant)).binding
-    found: dict[str, Diagnostic] = {}
+    found: dict[str, list[BindingError]] = {}
     for leaf in leaves(score):
         for constraint in leaf.score.constraints if isinstance(leaf.score, Key) else ():
             try:
                 binding.check(constraint)
             except BindingError as error:
-                found.setdefault(error.name, _lacking(error, rig))
-    return tuple(found.values())
+                found.setdefault(error.name, []).append(error)
+    return tuple(_lacking(errors, rig, strict=strict) for errors in found.values())
 
 
-def _lacking(error: BindingError, rig: Rig) -> Diagnostic:
-    kind = error.code.removeprefix("rig-lacks-")
-    place = error.origin
+def _lacking(errors: Sequence[BindingError], rig: Rig, *, strict: bool) -> Diagnostic:
+    first = errors[0]
+    kind = first.code.removeprefix("rig-lacks-")
+    place = first.origin
     written = (f"written at {place.file}:{place.line}:{place.column}",) if place else ()
-    message = f"the rig `{rig.name}` has no {kind} `{error.name}`"
-    return Diagnostic(error.code, message, None, notes=written)
+    message = f"the rig `{rig.name}` has no {kind} `{first.name}`"
+    if strict:
+        return Diagnostic(first.code, message, None, notes=written)
+    many = counted(len(errors), "constraint")
+    message += f"; {many} with it left out"
+    return Diagnostic(first.code, message, None, notes=written, severity=Severity.WARNING)
 
 
 def _source(text_or_path: str | Path | None) -> Source:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 @expression_option
 @library_option
 @click.option("--rig", metavar="R", help="Also look whether this body has all that is named.")
+@click.option("--strict-body", is_flag=True, help="What the body lacks is an error, not a warning.")
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
 @click.option("--quiet", is_flag=True, help="Only the exit code and the errors.")
 def check(
@@ -32,6 +34,7 @@ def check(
     expression: str | None,
     libraries: Sequence[Path],
     rig: str | None,
+    strict_body: bool,
     form: str,
     quiet: bool,
 ) -> int:
@@ -43,7 +46,7 @@ def check(
         raise click.UsageError("-e sees the rules of one FILE")
     body = None if rig is None else load_body(rig)
     texts: Sequence[str | None] = files or [None]
-    found = [d for file in texts for d in _checked(file, expression, libraries, body)]
+    found = [d for file in texts for d in _checked(file, expression, libraries, body, strict_body)]
     if form == "json":
         show_json({"diagnostics": as_json(found)})
     else:
@@ -53,7 +56,11 @@ def check(
 
 
 def _checked(
-    file: str | None, expression: str | None, libraries: Sequence[Path], body: Rig | None
+    file: str | None,
+    expression: str | None,
+    libraries: Sequence[Path],
+    body: Rig | None,
+    strict_body: bool,
 ) -> Sequence[Diagnostic]:
     """Return what is wrong with a text, then what is wrong with an expression that sees it."""
     found: Sequence[Diagnostic] = ()
@@ -65,7 +72,8 @@ def _checked(
         scores = program.utterances if expression is None else [program.evaluate(expression)]
         if body is None:
             return found
-        return [*found, *(lacking for score in scores for lacking in lacks(score.score, body))]
+        lacking = (lacks(score.score, body, strict=strict_body) for score in scores)
+        return [*found, *chain.from_iterable(lacking)]
     except AZeeError as error:
         return [*found, *error.diagnostics]
 

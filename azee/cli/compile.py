@@ -79,6 +79,11 @@ PATIENCE = "Preparing the solver: the first run after installing takes longer â€
     callback=with_suffix(".json"),
     help="Write what was solved and how well.",
 )
+@click.option(
+    "--strict-body",
+    is_flag=True,
+    help="Refuse a text that names what the body lacks; by default that is left out.",
+)
 @click.option("--strict", is_flag=True, help="Exit with 3 if a constraint is out of tolerance.")
 @click.option("--profile", is_flag=True, help="Tell where the time of the whole process goes.")
 @click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
@@ -103,6 +108,7 @@ def compile_(
     solver: Method,
     no_life: bool,
     report: Path | None,
+    strict_body: bool,
     strict: bool,
     profile: bool,
     quiet: bool,
@@ -139,6 +145,7 @@ def compile_(
                     mode=mode,
                     life=not no_life,
                     solver=solver,
+                    strict_body=strict_body,
                 )
             watch.split(made.report)
             for path in outputs:
@@ -155,17 +162,17 @@ def compile_(
         return FAULT
     if form == "json":
         with watch.stage("the report"):
-            measured = made.report.as_json()
+            measured = made.report_json()
         show_json(
             {
-                "diagnostics": as_json(text.warnings),
+                "diagnostics": as_json([*text.warnings, *made.left_out]),
                 "outputs": [str(path) for path in outputs],
                 "report": measured,
                 **({"profile": watch.as_json()} if profile else {}),
             }
         )
     else:
-        show(text.warnings)
+        show([*text.warnings, *made.left_out])
         news(outcome_lines(made, files), quiet=quiet)
         if profile:
             watch.show()

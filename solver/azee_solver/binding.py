@@ -98,6 +98,14 @@ class Binding:
 
         return fitted(self.rig, total)
 
+    def has(self, constraint: Constraint) -> bool:
+        """Whether the rig has everything that a constraint names."""
+        try:
+            _look_up(constraint, self)
+        except BindingError:
+            return False
+        return True
+
     def check(self, constraint: Constraint) -> None:
         """Raise BindingError, with the constraint's origin, for the first name the rig lacks."""
         try:

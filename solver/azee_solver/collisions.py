@@ -221,7 +221,8 @@ def _pairs(rig: Rig, anatomy: Anatomy) -> tuple[NDArray[np.int64], Array, Array,
     others = np.ones(len(rig.coordinates), dtype=np.bool_)
     others[list(anatomy.of(Part.HAND))] = False
     same_hand = ~(relative & others).any(axis=1)
-    thumbs = [rig.bones[f"thumb_{side}_1"].node for side in "LR"]
+    names = [f"thumb_{side}_1" for side in "LR"]
+    thumbs = [rig.bones[name].node for name in names if name in rig.bones]
     thumb = anatomy.paths[capsules.node[pairs]][:, :, thumbs].any(axis=(1, 2))
     for alike, posture in (
         (same_hand & ~thumb, np.zeros(len(rig.coordinates))),

@@ -141,7 +141,7 @@ def _regions(rig: Rig) -> _Regions:
             own &= _along_upper_arm(rig, side) > ARMPIT
             limbs[name] = _Limb(side, np.flatnonzero(own), np.empty(0, dtype=np.int64))
             continue
-        second = rig.bones[f"{name}_2"].node
+        second = rig.bones.get(f"{name}_2", rig.bones[f"{name}_1"]).node
         far = np.array([n >= 0 and structure.is_above(second, n) for n in carriers])
         beyond = np.sum(mesh.weights * far[mesh.joints], axis=1) > OWN_WEIGHT
         limbs[name] = _Limb(side, np.flatnonzero(own), np.flatnonzero(own & beyond))
@@ -161,7 +161,8 @@ def _joint_regions(rig: Rig, structure: Anatomy, carriers: list[int]) -> NDArray
     """Region that each joint of the skeleton moves with, (J,)."""
     limbs = {"head": rig.bones["neck"].origin_node}
     limbs |= {f"arm_{side}": rig.bones[f"arm_{side}"].node for side in "LR"}
-    limbs |= {f"{d}_{side}": rig.bones[f"{d}_{side}_1"].node for side in "LR" for d in DIGITS}
+    digits = {f"{d}_{side}": rig.bones.get(f"{d}_{side}_1") for side in "LR" for d in DIGITS}
+    limbs |= {name: bone.node for name, bone in digits.items() if bone is not None}
     out = []
     for node in carriers:
         above = [name for name, n in limbs.items() if node >= 0 and structure.is_above(n, node)]

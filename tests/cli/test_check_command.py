@@ -101,12 +101,17 @@ def test_a_text_is_bound_to_a_body_when_asked(
     rig = load_rig()
     chinless = replace(rig, sites={k: v for k, v in rig.sites.items() if k != "CH"})
     monkeypatch.setattr("azee_rig.load.load_rig", lambda _: chinless)
-    assert run(["check", "--quiet", "--rig", "signer", "touch.azee"]) == 1
+    strict = ["check", "--quiet", "--strict-body", "--rig", "signer"]
+    assert run([*strict, "touch.azee"]) == 1
     told = capsys.readouterr().err
     assert "error[rig-lacks-site]: the rig `signer` has no site `CH`" in told
     assert "note: written at touch.azee:1:8" in told
-    assert run(["check", "--quiet", "--rig", "signer", "-e", "key 1 (place @I_TIP(s) @CH)"]) == 1
+    assert run([*strict, "-e", "key 1 (place @I_TIP(s) @CH)"]) == 1
     assert "error[rig-lacks-site]" in capsys.readouterr().err
+    assert run(["check", "--rig", "signer", "touch.azee"]) == 0
+    told = capsys.readouterr().err
+    lacking = "warning[rig-lacks-site]: the rig `signer` has no site `CH`"
+    assert f"{lacking}; 1 constraint with it left out" in told
 
 
 def test_colours_only_where_somebody_looks(

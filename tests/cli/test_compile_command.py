@@ -197,7 +197,7 @@ def test_the_library_takes_paths_and_texts(tmp_path: Path) -> None:
         azee.compile(TWO).save(tmp_path / "missing" / "x.bvh")
 
 
-def test_a_rig_that_lacks_a_name_is_an_error_of_the_text() -> None:
+def test_a_rig_that_lacks_a_name_signs_the_rest_or_is_refused() -> None:
     from dataclasses import replace
 
     from azee.compilation import perform
@@ -207,6 +207,12 @@ def test_a_rig_that_lacks_a_name_is_an_error_of_the_text() -> None:
     sites = {name: site for name, site in rig.sites.items() if name != "CH"}
     score = azee.compile(TOUCH).score
     with pytest.raises(azee.AZeeError, match="rig-lacks-site") as caught:
-        perform(score, replace(rig, sites=sites))
+        perform(score, replace(rig, sites=sites), strict_body=True)
     (diagnostic,) = caught.value.diagnostics
     assert "`CH`" in diagnostic.message
+    made = perform(score, replace(rig, sites=sites))
+    (warning,) = made.left_out
+    assert (warning.code, warning.severity.value) == ("rig-lacks-site", "warning")
+    assert "left out" in warning.message
+    assert made.report_json()["left_out"] == [{"code": warning.code, "message": warning.message}]
+    assert not [c for c in made.report.constraints if "@CH" in c.target]

@@ -71,7 +71,7 @@ def _reported(block: Block, request: pytest.FixtureRequest) -> tuple[Diagnostic,
     if (name := block.options.get("body-without")) is None:
         return program.check()
     assert program.check() == ()
-    return lacks(program.score(), _without(name, request.getfixturevalue("signer")))
+    return lacks(program.score(), _without(name, request.getfixturevalue("signer")), strict=True)
 
 
 def _without(name: str, rig: Rig) -> Rig:

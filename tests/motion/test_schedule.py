@@ -28,7 +28,6 @@ from azee.score.interval import Interval
 from azee.score.score import Block, Group, Hold, Key
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
-from azee_solver.binding import BindingError
 from azee_solver.constraint import (
     BoneAxis,
     Constraint,
@@ -169,11 +168,11 @@ def test_a_hold_keeps_a_constraint_if_it_names_its_channel(
         assert len(held) == kept
 
 
-def test_a_name_that_the_rig_lacks_is_a_binding_error() -> None:
-    with pytest.raises(BindingError, match="rig-lacks-site"):
-        one(Place(Site("NOWHERE"), MIDDLE))
-    with pytest.raises(BindingError, match="rig-lacks-morph"):
-        one(Morph("AU999", None, 1.0))
+def test_what_names_something_that_the_rig_lacks_is_left_out() -> None:
+    lacking = Place(Site("NOWHERE"), MIDDLE)
+    assert schedule(block("ONE", "0", "1", lacking)).all == ()
+    both = schedule(block("ONE", "0", "1", lacking, Place(TIP, MIDDLE)))
+    assert [task.constraint for task in both.all] == [Place(TIP, MIDDLE)]
 
 
 NRM_UP = Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP)

@@ -174,8 +174,18 @@ def test_a_corrected_map_is_used_and_fingers_that_are_not_there_are_refused(
     assert "PA_R" in rig.sites
     text = tmp_path / "text.azee"
     text.write_text("key 1 (place @I_TIP(s) @CH)\n", encoding="utf-8")
-    assert run(["check", "--rig", str(folder), str(text)]) == 1
-    assert "rig-lacks-site" in capsys.readouterr().err
+    assert run(["check", "--rig", str(folder), str(text), "--strict-body"]) == 1
+    assert "error[rig-lacks-site]" in capsys.readouterr().err
+    both = "key .2\n    cstr\n        place @PA(s) ^Mssp\n        place @I_TIP(s) @CH\n"
+    text.write_text(both, encoding="utf-8")
+    outputs = ["-o", str(tmp_path / "x.npz"), "--report", str(tmp_path / "r.json")]
+    assert run(["compile", str(text), "--rig", str(folder), *outputs]) == 0
+    assert "warning[rig-lacks-site]" in capsys.readouterr().err
+    report = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))
+    assert [(row["code"], row["message"].count("I_TIP_R")) for row in report["left_out"]] == [
+        ("rig-lacks-site", 1)
+    ]
+    assert [c["met"] for c in report["constraints"]] == [True]
 
 
 def _no_skin(file: GlbFile) -> None:

@@ -91,12 +91,13 @@ class TaskSchedule:
 def bind(timeline: Timeline, rig: Rig, binding: Binding, limbs: Limbs) -> TaskSchedule:
     """Bind every requirement to a body; of a hold's requirements, keep those in its channels.
 
-    Raises: BindingError: the rig lacks a bone, a site or a morph.
+    A body does what it can: what names a bone, a site or a morph that it lacks is left out.
     """
     kinds: dict[type, list[TimedTask]] = {Transpath: [], Trill: [], Morph: [], object: []}
     for requirement in timeline.requirements:
         constraint = requirement.constraint
-        binding.check(constraint)
+        if not binding.has(constraint):
+            continue
         channels = requirement.held_channels
         if channels is not None and channel_of_constraint(constraint, binding) not in channels:
             continue

@@ -44,10 +44,10 @@ class ImportReport:
             if len(gone) == len(DIGITS):
                 yield (
                     f"no fingers on the {SIDE_NAMES[side]} hand: what places or bends them is "
-                    "refused (rig-lacks-…); palm, wrist and arm work"
+                    "left out; palm, wrist and arm work"
                 )
             elif gone:
-                yield f"no {', '.join(gone)} on the {SIDE_NAMES[side]} hand: refused likewise"
+                yield f"no {', '.join(gone)} on the {SIDE_NAMES[side]} hand: left out likewise"
         merged = [b for b in self.without if b in ("back_1", "neck")]
         if merged:
             yield (

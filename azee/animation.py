@@ -121,7 +121,7 @@ def animate(
         duration_s=float(clip.times[-1]),
         lead_s=lead_s,
         score_s=float(score.duration),
-        constraints=constraint_results(schedule, planned, trill_shortfalls),
+        constraints=constraint_results(schedule, planned, trill_shortfalls, float(fps)),
         max_excess_rad=excess,
         excess_joint=joint,
         postures=planned.postures,

@@ -18,7 +18,7 @@ from azee.motion.tasks.timed_task import TimedTask
 from azee.quality.likeness import Likeness
 from azee.quality.measures import CoordinatePeaks, Penetration
 from azee_rig.coordinates import Coordinates
-from azee_solver.constraint import Trill
+from azee_solver.constraint import Morph, Trill
 from azee_solver.notation import operator_text, subject_text, target_text
 
 if TYPE_CHECKING:
@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 _ROUNDING = 1.0 + 1e-6
 """A residual counts as met up to the tolerance times this."""
 FACE_TOLERANCE_M = TOLERANCE["m"]
+MOST_WEIGHT = 1.0
+"""Of a facial morph: beyond it the skin would tear."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,13 +156,13 @@ class MotionReport:
 
 
 def constraint_results(
-    schedule: TaskSchedule, plan: Plan, trill_shortfalls: Mapping[int, float]
+    schedule: TaskSchedule, plan: Plan, trill_shortfalls: Mapping[int, float], fps: float
 ) -> tuple[ConstraintResult, ...]:
     """Measure every task at the clip's frames and at the keys inside its block.
 
     Trills are left out of the postures that are measured: they swing about what others fix.
 
-    Args: trill_shortfalls: angles by which trills fall short, by rank.
+    Args: trill_shortfalls: angles by which trills fall short, by rank. fps: of the clip.
     """
     measured = {t.rank for t in plan.monitor.measured_tasks}
     out = []
@@ -168,9 +170,9 @@ def constraint_results(
         if task.rank in measured:
             out.append(_measured(task, plan))
         elif isinstance(task.constraint, Trill):
-            out.append(_trill(task, trill_shortfalls.get(task.rank, 0.0)))
+            out.append(_trill(task, task.constraint, trill_shortfalls.get(task.rank, 0.0), fps))
         else:
-            out.append(_result(task, 0.0, "m", FACE_TOLERANCE_M, None))
+            out.append(_face(task))
     return tuple(out)
 
 
@@ -207,10 +209,26 @@ def _reason(task: TimedTask, plan: Plan, residual: float) -> str:
     return "met at the keys but not at every frame between them"
 
 
-def _trill(task: TimedTask, shortfall: float) -> ConstraintResult:
+def _trill(task: TimedTask, trill: Trill, shortfall: float, fps: float) -> ConstraintResult:
+    """Judge a trill by how far its joints can go, and by whether frames can show it.
+
+    A frame rate shows frequencies below half of it (Nyquist 1928, Shannon 1949).
+    """
     tolerance = TOLERANCE["rad"]
+    if trill.frequency_hz > fps / 2:
+        shown = f"no {fps:g} frames a second can show {trill.frequency_hz:g} oscillations"
+        return _result(task, trill.amplitude_rad, "rad", tolerance, shown)
     reason = None if shortfall <= tolerance else "the limits of its joints are in the way"
     return _result(task, shortfall, "rad", tolerance, reason)
+
+
+def _face(task: TimedTask) -> ConstraintResult:
+    """Judge a facial morph: the face shows every weight from −1 to 1 exactly, and no other."""
+    weight = task.constraint.weight if isinstance(task.constraint, Morph) else 0.0
+    if abs(weight) > MOST_WEIGHT:
+        reason = f"no face goes so far: weights are from −{MOST_WEIGHT:g} to {MOST_WEIGHT:g}"
+        return _result(task, math.inf, "m", FACE_TOLERANCE_M, reason)
+    return _result(task, 0.0, "m", FACE_TOLERANCE_M, None)
 
 
 def _result(

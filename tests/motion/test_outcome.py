@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+import azee
 from azee.quality.likeness import Likeness
 from azee.quality.motion_report import ConstraintResult, MotionReport
 from azee.quality.outcome import amount, misses, outcome, shortfall
@@ -84,3 +85,24 @@ def test_amounts_are_in_millimetres_and_degrees() -> None:
 
 def test_nouns_are_counted() -> None:
     assert [counted(n, "file") for n in (0, 1, 2)] == ["0 files", "1 file", "2 files"]
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("key .2 (morph 'AU12 5)", "no face goes so far: weights are from −1 to 1"),
+        ("key .2 (trill !palm(s) ^up 'freq 16)", "no 30 frames a second can show 16 oscillations"),
+        ("key .2 (trill !palm(s) ^up 'freq 99999)", "can show 99999 oscillations"),
+    ],
+)
+def test_what_no_body_can_show_is_not_said_to_be_met(text: str, reason: str) -> None:
+    made = azee.compile(expression=text)
+    assert not made.report.met
+    (constraint,) = made.report.constraints
+    assert reason in str(constraint.reason)
+    assert outcome(made.report) == "1 constraint is out of tolerance"
+
+
+@pytest.mark.parametrize("text", ["key .2 (morph 'AU12 -1)", "key .2 (trill !palm(s) ^up 'freq 5)"])
+def test_what_a_body_can_just_show_is_met(text: str) -> None:
+    assert azee.compile(expression=text).report.met

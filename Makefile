@@ -10,7 +10,7 @@ READY := $(ENV)/.ready
 PACKAGES := tests/node/node_modules/.package-lock.json
 TYPED := tests benchmarks examples
 
-.PHONY: motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
+.PHONY: families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -77,6 +77,9 @@ readme-picture: $(READY) ## draw the moving picture of README.md again
 
 motion-table: $(READY) ## compare tracks with flattening on every example, into docs/motion.md
 	@$(RUN) docs/motion_table.py
+
+families-table: $(READY) ## try three examples on bodies of many makers, into docs/rig/bodies.md
+	@$(RUN) docs/rig/families_table.py
 
 wheel-test: $(READY) node ## run the fast tests against the built wheel, outside the checkout
 	@bash tests/project/wheel.sh $(RUN)

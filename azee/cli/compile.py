@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     from azee.motion.tasks.key_selection import Mode
 
 
-PATIENCE = "Preparing the solver: the first run after installing takes longer …"
-
-
 @click.command("compile", short_help="A text as a moving body: GLB, BVH, films and more.")
 @text_options
 @click.option(
@@ -134,9 +131,9 @@ def compile_(
         with watch.stage("evaluating"):
             score = text.score(dominant)
         with working("Solving …", quiet=quiet or form == "json") as progress:
-            with progress.patience(PATIENCE):
+            with progress.preparing():
                 watch.load_solver()
-            with watch.stage("making the movement"):
+            with progress.preparing(), watch.stage("making the movement"):
                 made = perform(
                     score,
                     body,

@@ -7,7 +7,6 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from threading import Timer
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -53,6 +52,9 @@ def news(text: str, *, quiet: bool = False) -> None:
         click.echo(text, err=True)
 
 
+PREPARING = "Preparing the solver for this machine, once"
+
+
 class Progress:
     """Long work in the eyes of who waits for it."""
 
@@ -65,16 +67,18 @@ class Progress:
             self._status.update(text)
 
     @contextmanager
-    def patience(self, text: str, after_s: float = 1.5) -> Iterator[None]:
-        """Explain, once some time has passed, why this takes long."""
-        tell = self.now if self._status else lambda text: news(text, quiet=self._quiet)
-        timer = Timer(after_s, tell, [text])
-        timer.daemon = True
-        timer.start()
-        try:
+    def preparing(self) -> Iterator[None]:
+        """Say how far the solver is compiled, on the first run after installing; else nothing."""
+        from azee_rig.machine_code import told_of_compiling
+
+        with told_of_compiling(self._compiling):
             yield
-        finally:
-            timer.cancel()
+
+    def _compiling(self, number: int, total: int) -> None:
+        if self._status:
+            self.now(f"{PREPARING}: part {number} of up to {total} …")
+        elif number == 1:
+            news(f"{PREPARING} …", quiet=self._quiet)
 
 
 @contextmanager

@@ -18,8 +18,8 @@ import os
 import re
 import struct
 import sys
-from collections.abc import Iterator
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from functools import cached_property, lru_cache
 from importlib import import_module
 from importlib.util import find_spec
@@ -60,6 +60,32 @@ class Unkept(Exception):  # noqa: N818 - it is no fault
     """Machine code can neither be stored nor loaded here; numba can do it."""
 
 
+_KERNELS: list[Kernel] = []
+"""All that modules have named so far."""
+_LISTENERS: list[Callable[[int, int], None]] = []
+_COMPILED: list[str] = []
+
+
+@contextmanager
+def told_of_compiling(tell: Callable[[int, int], None]) -> Iterator[None]:
+    """Tell of each kernel that is compiled, as it begins: which it is, from 1, and of how many.
+
+    That happens on the first run after installing, and takes seconds.
+    """
+    _LISTENERS.append(tell)
+    try:
+        yield
+    finally:
+        _LISTENERS.remove(tell)
+
+
+def _tell_of(kernel: Kernel) -> None:
+    _COMPILED.append(kernel.name)
+    missing = sum(not other.is_on_disk() for other in _KERNELS)
+    for tell in _LISTENERS:
+        tell(len(_COMPILED), len(_COMPILED) - 1 + missing)
+
+
 class Kernel:
     """A function that numba compiles, given by name, loaded on first use.
 
@@ -71,6 +97,7 @@ class Kernel:
         """Args: sources: modules or packages, beside its own, whose code is part of it."""
         self.module, self.name = module, name
         self._sources = (module, *sources)
+        _KERNELS.append(self)
 
     @cached_property
     def address(self) -> int:
@@ -94,20 +121,27 @@ class Kernel:
 
     def _kept(self) -> bytes:
         """Return machine code from disk, after making it if necessary. Raises: Unkept."""
-        digest, machine = self._digest(), _machine()
-        file = f"{self.module}.{self.name}-{machine}-{digest}.o"
-        folders = list(_folders(self._files()[0]))
+        file, folders = self._file(), list(_folders(self._files()[0]))
         for folder in folders:
             with suppress(OSError):
                 data = (folder / file).read_bytes()
                 if hashlib.sha256(data[SUM_BYTES:]).digest() == data[:SUM_BYTES]:
                     return data[SUM_BYTES:]
+        _tell_of(self)
         code = _machine_code(self._compiled().inspect_llvm(), _symbol(self.name))
         for folder in folders:
             with suppress(OSError):
                 _store(folder, file, hashlib.sha256(code).digest() + code)
                 break
         return code
+
+    def _file(self) -> str:
+        return f"{self.module}.{self.name}-{_machine()}-{self._digest()}.o"
+
+    def is_on_disk(self) -> bool:
+        """Whether its machine code was stored. Raises: Unkept."""
+        file = self._file()
+        return any((folder / file).is_file() for folder in _folders(self._files()[0]))
 
     def _files(self) -> list[Path]:
         """Return the sources that are part of it."""

@@ -104,6 +104,24 @@ def test_it_is_made_once_and_loaded_without_numba(python: Python, place: Path) -
     np.testing.assert_allclose(again.out, expected(3.0), atol=1e-15)
 
 
+TOLD = """
+import json, sys
+import numpy as np
+from azee_rig.machine_code import Kernel, told_of_compiling
+told = []
+with told_of_compiling(lambda number, total: told.append([number, total])):
+    Kernel("waved", "waves", "azee_rig.pointers")(3, np.zeros(3), np.empty(3))
+print(json.dumps(told))
+"""
+
+
+@pytest.mark.slow
+def test_it_is_told_of_only_when_it_is_made(python: Python, place: Path) -> None:
+    code = f"import sys; sys.path.insert(0, {str(place)!r})\n{TOLD}"
+    assert json.loads(python("-c", code, expect=0).stdout) == [[1, 1]]
+    assert json.loads(python("-c", code, expect=0).stdout) == []
+
+
 @pytest.mark.slow
 def test_another_source_is_another_kernel_and_the_old_one_goes(python: Python, place: Path) -> None:
     run(python, place)

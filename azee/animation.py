@@ -74,7 +74,7 @@ def animate(
     """Make a body play a score.
 
     Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
-        blinks, breaths and sway. life: whether there are any. solver: what solves key
+        blinks, breaths and sway. life: whether to add these. solver: what solves key
         postures; `azee_solver.solve` if none is given.
     What names a bone, site or morph that the rig lacks is left out.
 
@@ -100,7 +100,7 @@ def animate(
         schedule, evaluator, selection, solver or _default_solver(rig, dominant), frames_inside
     )
 
-    # 11. Sample the movement at the clip's frames, and add trills, face and idle motion.
+    # 11. Sample the movement at the clip's frames, and add trills, face, idle motion and lids.
     times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)
     q = planned.movement.sample(times)
     q, trill_shortfalls = _with_trills(q, times, schedule, planned.movement, evaluator)

@@ -77,7 +77,7 @@ class scaled_weights:  # noqa: N801 - used as a statement
             self._kept.append((weight, float(weight[0])))
             weight[0] *= factor
         if self._posture is not None:
-            posture = self._keep(program.section(block.POSTURE))
+            posture = self._keep(program.section(block.POSTURE))  # of 5: 1 keep, 4 comfort
             posture[1::5] *= self._posture
             posture[4::5] *= self._posture
 

@@ -54,7 +54,7 @@ from azee_solver.geometry import (
 class Footprint:
     """Nodes that a constraint reads.
 
-    own: those of the bone or site that it moves. target: those that its target hangs on.
+    own: those of the bone or site that it moves. target: those that its target depends on.
     world: whether it also reads a place or direction that no bone carries. Without one it does
     not change when everything it reads moves together.
     """
@@ -68,7 +68,7 @@ class Footprint:
         return self._of(self.own | self.target, anatomy)
 
     def movers(self, anatomy: Anatomy) -> frozenset[int]:
-        """Coordinates that can change the residual by moving what the constraint speaks of."""
+        """Coordinates that can change the residual by moving the constraint's own bone or site."""
         return self._of(self.own, anatomy)
 
     def _of(self, nodes: frozenset[int], anatomy: Anatomy) -> frozenset[int]:

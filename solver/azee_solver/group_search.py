@@ -2,13 +2,13 @@
 
 `solve_group` minimises, over the coordinates that the group may move and inside their limits,
 
-    f(q) = Σ w r² + w_o Σ overlap² + Σ k (q − q₀)² + Σ c beyond²
+    f(q) = Σ w r² + w_o Σ overlap² + Σ λ (q − q₀)² + Σ κ beyond²
 
-(docs/solver.md names the terms). f has many local minima, so it is soft_descent from many starts:
+(docs/solver.md names the terms). f has many local minima, so there are descents from many starts:
 
 1. descend from each start in turn until one end meets everything or no more is gained (`search`);
 2. if only the body is in the way, descend around it and through it (`around_the_body`);
-3. go on to the very bottom (`finished`);
+3. from the best end descend until nothing is gained (`finished`);
 4. if a place is far out of reach, try nearly straight arms as well (`nearest`).
 """
 
@@ -45,19 +45,20 @@ GAZING_LEVEL_RAD = math.radians(5.0)
 """The same for its tilt while the eyes are led."""
 
 BLOCKED_WEIGHT = 2
-"""A descent that ends in the body counts so many times more against going on, where a wider
-problem can move the body out of the way."""
+"""A descent that ends in the body counts as so many more that gain nothing, where a wider problem
+can move the body out of the way."""
 REPEAT_WEIGHT = 4
-"""So many times counts a descent that ends where the best one did: the more descents end there, the
-less likely is it that there is anything better."""
+"""A descent that ends where the best one did counts as so many that gain nothing: the more descents
+end there, the less likely is it that there is anything better."""
 DEEP = 2.0
 """Overlaps up to so many times what is tolerated are better than a miss, deeper ones are not."""
 STIFF_OVERLAP = 4.0
-"""Factor of the overlap's weight at the end, where steps are exact; a small one finds ways."""
+"""Factor of the overlap's weight in `finished`, where steps are exact. Before,
+the weight is smaller, so that descents find ways past the body."""
 NEAR_MISS, NEAR_MISS_POSTURE, NEAR_MISS_OVERLAP = 5.0, 0.01, 0.3
 """Misses below so many tolerances are tried again with posture cost and overlap scaled down."""
 PROBES = 3
-"""So many descents through the body, none of which meets all: then it is not in the way."""
+"""If none of so many descents through the body meets all, the body is not what is in the way."""
 RETURNING_OVERLAP = 0.1
 """Factor of the overlap's weight with which the body comes back after a descent through it."""
 
@@ -78,10 +79,11 @@ def solve_group(
     """Return the best posture found for some tasks when some coordinates may move.
 
     Args: tasks: by their index. q: (V,) the posture so far. free: coordinates that may move.
-        unsettled: coordinates that other problems will still move. factors: of the weights of
-        tasks that are given up. first: postures (V,) to start from before the others, or instead
-        of them. further: go on while the body is in the way; else leave that to a wider problem.
-        finish: get as near as can be to what is missed; else leave that to the next try.
+        unsettled: coordinates that later groups will move; what only they carry is no obstacle
+        yet. factors: of the weights of tasks that are given up. first: postures (V,) to start
+        from before the others. only_first: start from no others. further: go on while the body is
+        in the way; else leave that to a wider problem. finish: get as near as can be to what is
+        missed; else leave that to the next try.
     """
     search = GroupSearch(body, tasks, q, free, unsettled=unsettled, factors=factors)
     if not search.residuals.rows:
@@ -195,9 +197,9 @@ class GroupSearch:
         )
 
     def finished(self, result: Result) -> Result:
-        """Go on to the very bottom, so that near targets end in near postures.
+        """Descend from a result until nothing is gained, so that near targets end in near postures.
 
-        Far from what they want, Gauss-Newton steps are short: there NLopt goes on first.
+        Where a task is missed, Gauss-Newton steps are short: there NLopt goes on first.
         """
         options, program = self.body.options, self.program
         tolerance, unmet = options.finish_tolerance, result.unmet()

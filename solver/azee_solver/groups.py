@@ -1,7 +1,7 @@
 """Problems that must be solved together, and the order of the groups.
 
-Two problems whose coordinates overlap cannot be solved one after the other without the second
-spoiling the first: a forearm's direction after its elbow's place missed by up to 13°.
+If two problems move the same coordinate, solving one after the other spoils the first: a forearm's
+direction, solved after its elbow's place, missed by up to 13°.
 """
 
 from __future__ import annotations
@@ -38,10 +38,11 @@ def grouped(
     """Return the groups in the order in which they are to be solved.
 
     Where dependencies leave a choice, trunk and head come first, then hands before arms, so that
-    the arms keep the hands, as they will be, out of the body. A head that nothing else turns is
-    levelled wherever the trunk moves. Digits that are bent against their own hands are one group:
-    each is a small problem, and laying out a problem takes longer than to solve it. An arm that
-    hangs on one that the trunk helps is solved with it: the trunk must suit both.
+    the arms keep the hands, as they will be, out of the body. Where the trunk moves, a head that
+    no constraint turns is free too, so that it can stay level. Problems that read and move nothing
+    but digits are one group: each is small, and laying out a problem takes longer than solving it.
+    If a problem may move the trunk, an arm whose target depends on what it moves is solved with it:
+    the trunk must suit both.
 
     Args: fixed: coordinates that nothing may move.
     """
@@ -62,20 +63,20 @@ def _grouped(
         free = [f | (head - fixed) if f & trunk else f for f in free]
 
     digits = anatomy.of(Part.HAND)
-    apart = [
+    only_digits = [
         problem.reads <= digits and f <= digits for problem, f in zip(problems, free, strict=True)
     ]
     together = _Partition(len(problems))
     for i in range(len(problems)):
-        if apart[i]:
-            together.join(apart.index(True), i)
+        if only_digits[i]:
+            together.join(only_digits.index(True), i)
         for j in range(i):
             if free[i] & free[j]:
                 together.join(i, j)
         if reach[i] >= Reach.TRUNK:
             for j, other in enumerate(problems):
-                hangs = bool(free[j] & arms) and other.needs(problems[i])
-                if (free[j] & (problems[i].reads - free[i]) and other.steps[0] - fixed) or hangs:
+                depends = bool(free[j] & arms) and other.needs(problems[i])
+                if (free[j] & (problems[i].reads - free[i]) and other.steps[0] - fixed) or depends:
                     together.join(i, j)
     sets = together.sets()
     moved = [frozenset().union(*(free[i] for i in s)) for s in sets]

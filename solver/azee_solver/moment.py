@@ -29,8 +29,11 @@ class Moment:
     """What solving one moment starts from.
 
     constraints: of the tasks. start: (V,) where to start looking. reference: (V,) the posture to
-    stay near, with the handshapes in it. body: the rig with costs and obstacles. problems: the
-    paper's ordered problems. footprints: by task, what its residual depends on.
+    stay near, with the handshapes in it. body: the rig with costs and obstacles. problems: in the
+    order of `ProblemBuilder`. footprints: by task, what its residual depends on.
+
+    Inertia m draws the posture to the start as well: (q − reference)² + m (q − start)² is, but for
+    a constant, (1 + m) (q − (reference + m start) / (1 + m))². So it changes weight and reference.
     """
 
     def __init__(

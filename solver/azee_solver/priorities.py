@@ -21,7 +21,8 @@ Again = Callable[[Mapping[int, float], Array], Result]
 Order = Callable[[int], tuple[Fraction, int, int]]
 
 GIVEN_UP_PULL = 0.1
-"""With how much of a tolerance's force a constraint that was given up still pulls."""
+"""How steeply the cost of a constraint that is given up falls with its residual: a tenth
+as steeply as that of one that is missed by a tolerance."""
 
 
 def give_up_later_tasks(
@@ -36,7 +37,7 @@ def give_up_later_tasks(
         the last unmet one is given up first.
     """
     given_up = dict(factors)
-    while len(unmet := result.unmet()) > (not given_up):
+    while len(unmet := result.unmet()) > (0 if given_up else 1):
         last = max(unmet, key=order)
         given_up[last] = GIVEN_UP_PULL / result.ratios[last]
         result = again(given_up, result.q)

@@ -3,11 +3,11 @@
 A problem has a chain of bones, at most one placement of a site on its last bone, and orientations
 of bones on the chain. Each placement makes one. An orientation joins the first placement whose
 chain holds its bone; the others form problems together as far as their bones lie on one chain,
-except that one whose target reads a bone which another of them moves stands alone and later: its
-target is a look-up once that bone is where it belongs.
+except that one whose target depends on a bone that another of them moves is a problem of its own,
+and a later one: its target is known once that bone has been placed.
 
-None of that depends on where targets are, only on what they hang on. So it is worked out once for
-all moments that ask for the same of the same bones, as those of a movement do.
+None of that depends on where targets are, only on the bones that they depend on. So it is worked
+out once for all moments that ask the same of the same bones, as those of a movement do.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ class Reach(IntEnum):
     """How much of the body a problem may move; each includes those before it."""
 
     OWN = 0
-    """What it speaks of: an arm for a hand's placement, a finger for a finger's direction."""
+    """The part that its constraints name: an arm for a hand's placement, a finger for a finger's
+    direction."""
     FINGERS = 1
     """Also the fingers that carry its site, and the head that carries an eye."""
     TRUNK = 2
@@ -67,7 +68,7 @@ class Problem:
 class _Asked:
     """What a task asks of a body, wherever its target is.
 
-    role: Place, Orient or Look. part: where the bone or site belongs that it speaks of; none for
+    role: Place, Orient or Look. part: to which the bone or site that it moves belongs; none for
     a gaze. order: its place among all tasks, by their order.
     """
 
@@ -153,12 +154,12 @@ class _Builder:
 
     @cached_property
     def _claimed(self) -> frozenset[int]:
-        """Finger coordinates that orientations and morphs speak of, and what follows those."""
-        return self._spoken_of | self._followers(self._spoken_of)
+        """Finger coordinates that orientations and morphs turn, and what follows those."""
+        return self._turned | self._followers(self._turned)
 
     @cached_property
-    def _spoken_of(self) -> frozenset[int]:
-        """Finger coordinates that orientations and morphs speak of."""
+    def _turned(self) -> frozenset[int]:
+        """Finger coordinates that orientations and morphs turn."""
         turned = [i for i, a in self.asked.items() if a.role is Orient]
         return self.presets.union(*(self._movers[i] for i in turned))
 
@@ -202,7 +203,7 @@ class _Builder:
         )
 
     def _reads(self, i: int, j: int) -> bool:
-        """Whether the target of task i hangs on a bone that task j moves."""
+        """Whether the target of task i depends on a bone that task j moves."""
         moved = self._step(j, Reach.OWN)
         return any(self.anatomy.above(node) & moved for node in self.asked[i].footprint.target)
 
@@ -234,7 +235,7 @@ class _Builder:
     def _followers(self, free: frozenset[int]) -> frozenset[int]:
         """Last finger joints that follow one that moves, where nothing else fixes them."""
         led = {v for v, leader in self.anatomy.followers.items() if leader in free}
-        return frozenset(led) - self._spoken_of
+        return frozenset(led) - self._turned
 
     def _idle_fingers(self, i: int) -> frozenset[int]:
         """Fingers that nothing asks anything of, on hands that a placement brings near things.

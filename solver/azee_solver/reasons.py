@@ -50,7 +50,7 @@ class Diagnosis:
 
     @cached_property
     def firm(self) -> Body:
-        """The body as it was found."""
+        """The body with all its costs, drawn to the posture that was found."""
         return replace(self.body, reference=self.q)
 
     @cached_property

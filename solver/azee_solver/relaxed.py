@@ -1,4 +1,6 @@
-"""The relaxed problem: the same constraints without collision, handshapes or posture cost.
+"""The relaxed problem: the same constraints without collision, handshapes and joint-limit cost.
+
+Of the posture cost a thousandth is left (`Body.relaxed`).
 
 What even the relaxed problem misses is infeasible. It is cheap, so it is solved before wider or
 longer searches of the whole problem: infeasible tasks are given up at once, and a posture that
@@ -27,7 +29,7 @@ DEEP_M = 0.02
 """Where capsules overlap by more than a finger's thickness, the body is in the way. Asking the
 relaxed problem there too takes 748 evaluations instead of 271 for the published tree (ADR 29)."""
 AGREEING_ENDS = 3
-"""So many other descents must end where the best one does to tell that nothing meets all."""
+"""If so many other descents end where the best one does, nothing meets all tasks."""
 
 
 class RelaxedProblem:
@@ -47,7 +49,8 @@ class RelaxedProblem:
         """Find out whether the unmet tasks of a solution can be met together with their groups.
 
         Groups that overlap deeply are left out: there the body is in the way, and more of it will
-        be moved first. A near miss proves nothing, nor do ends that differ from start to start.
+        be moved first. Neither a near miss nor ends that differ from start to start prove that
+        tasks are infeasible.
         """
         moment = self._moment
         unmet: frozenset[int] = frozenset()

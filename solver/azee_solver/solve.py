@@ -36,7 +36,8 @@ def solve(
 ) -> SolveReport:
     """Return the posture that meets the constraints, or the nearest one and why.
 
-    Facial morphs, trills and transpaths are not the joints' to meet and are passed over.
+    Facial morphs, trills and transpaths are ignored: the face and the movement meet them, not a
+    posture.
 
     Args: start: (V,) radians, where to start looking. reference: (V,) the posture to stay near;
         what no constraint moves has its value.

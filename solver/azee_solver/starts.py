@@ -1,9 +1,9 @@
 """Where descents start: the posture at hand, idle, and nine typical ones.
 
 Nine ways to hold an arm (forward, across, up; each with three pronations) cover the signing space
-with its solutions. Idle and random starts stick inside the trunk more often; a Halton sequence
-after them met nothing more in 1,747 problems (ADR 29). Hands that touch often need their arms held
-in two unlike ways.
+with its solutions. Descents from idle or random starts end inside the trunk more often; starts
+from a Halton sequence after them met nothing more in 1,747 problems (ADR 29). Hands that touch
+often need their arms held in two unlike ways.
 """
 
 from __future__ import annotations

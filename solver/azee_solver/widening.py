@@ -12,13 +12,14 @@ from azee_solver.relaxed import DEEP_M
 from azee_solver.solution import Solution
 
 JUMP_RAD = math.radians(1.5)
-"""A change of a coordinate from one step of a movement to the next that more should share."""
+"""Along a movement, a coordinate that changes by more from one step to the next jumps. More of the
+body should then share the change."""
 
 
 def least_reach(moment: Moment) -> tuple[Reach, ...]:
     """Return what each problem may move first.
 
-    That is what its constraints speak of. Along a movement it is also what an earlier step has
+    That is the part that its constraints name. Along a movement it is also what an earlier step has
     moved away from the reference, or the body would jump back (15 jumps of up to 5.9° in
     `benchmarks.continuity`; ADR 29).
     """
@@ -37,8 +38,9 @@ def _least(moment: Moment, problem: Problem) -> Reach:
 def widened(moment: Moment, solution: Solution) -> tuple[Reach, ...] | None:
     """Let problems of groups that miss move more, where that can help; none if nothing can.
 
-    More helps a missed constraint if it changes its residual. It helps against an overlap too, but
-    fingers do not get out of one that is deeper than they are thick. Along a movement, more of the
+    Each such problem gets the least further reach that helps. More coordinates help a missed
+    constraint if they change its residual. They help against an overlap too; fingers alone do so
+    only if the overlap is no deeper than they are thick. Along a movement, more of the
     body may share what would else be a jump: that halves the jumps of `benchmarks.continuity`.
     """
     options, anatomy = moment.options, moment.body.anatomy

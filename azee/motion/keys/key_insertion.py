@@ -3,7 +3,7 @@
 Between two keys that meet a constraint the interpolated posture may not. A key is added at the
 worst frame of every such stretch. It is solved from the posture that the movement has there, and
 drawn to it; the limbs pass through it without stopping. Each round about halves the stretches that
-are too long. Where no frame is out of tolerance any more, or after `ROUNDS` rounds, it ends.
+are too long. It ends when no frame is out of tolerance any more, or after `ROUNDS` rounds.
 """
 
 from __future__ import annotations
@@ -59,8 +59,8 @@ def insert_keys(
 ) -> KeyedMovement:
     """Return key postures, with those added that the frames need, and the movement through them.
 
-    After a round only the stretches that it changed are measured; when these are right, all are
-    measured once more. In flat mode no key is added.
+    After a round only the stretches that it changed are measured; when these are in tolerance, all
+    are measured once more. In flat mode no key is added.
     """
     out = sorted(postures, key=lambda p: p.time)
     changed: Sequence[Fraction] | None = None  # frames to measure; none for all

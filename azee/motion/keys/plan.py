@@ -37,14 +37,13 @@ class Plan:
     """Key postures in order of time, the movement through them, and what measures it.
 
     samples: the movement at the frames inside the score and at the keys. monitor: measures its
-    residuals. avoidance: knows its collisions.
+    residuals.
     """
 
     postures: tuple[KeyPosture, ...]
     movement: Movement
     samples: MovementSamples
     monitor: ResidualMonitor
-    avoidance: CollisionAvoidance
 
 
 def plan(
@@ -74,7 +73,7 @@ def plan(
     keys = PathKeys(motions, [*boundaries.postures], in_between, interpolation, frame_times)
     joined = keys.join_boundaries()
 
-    # 6. Measure on it where paths start and end.
+    # 6. Measure where paths start and end, in key postures, else on the joined movement.
     keys.anchor_paths(joined)
 
     # 7. Solve the boundaries that lie on paths.
@@ -84,17 +83,18 @@ def plan(
     keys.sample_paths(joined)
     keys.sample_moving_targets()
 
-    # 9. Add a key at the worst frame of each stretch until every frame meets every constraint.
+    # 9. Add a key at the worst frame of each stretch until every frame meets every constraint;
+    # in flat mode none.
     keyed = insert_keys(keys.postures, keys.in_between, interpolation, frame_times)
 
     # 10. Lead the movement round the body where it would go through it.
-    avoidance = CollisionAvoidance(evaluator, schedule, in_use, CapsuleOverlaps(evaluator))
     movement, samples = keyed.movement, keyed.samples
     if not selection.flat:
+        avoidance = CollisionAvoidance(evaluator, schedule, in_use, CapsuleOverlaps(evaluator))
         movement = avoidance.avoid_collisions(movement)
         samples = sample_movement(movement, samples.times, evaluator)
 
-    return Plan(keyed.postures, movement, samples, keys.in_between.monitor, avoidance)
+    return Plan(keyed.postures, movement, samples, keys.in_between.monitor)
 
 
 def _limbs_in_use(

@@ -182,7 +182,7 @@ def end_times(motions: Iterable[PathMotion]) -> frozenset[Fraction]:
 def boundaries_on_paths(
     motions: Sequence[PathMotion], schedule: TaskSchedule
 ) -> frozenset[Fraction]:
-    """Return the boundaries at which a path holds a site and on which no path's end depends.
+    """Return the boundaries at which a path holds a site and no other path starts or ends.
 
     They can be solved only when the ends of the paths are known.
     """

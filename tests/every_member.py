@@ -1,13 +1,17 @@
 """An example of every member of the unions of geometry and constraints, for what reads them all.
 
 A new member is added here, and then passes through the tests of evaluation, kernels, footprints,
-solving, notation, mirror images and scores. Numbers are exact in binary, angles whole degrees, so
-that texts give them back.
+solving, notation, mirror images and scores. A point made of points
+comes back in `MOVING_POINTS` with each of its parts moving. Numbers are exact in binary, angles
+whole degrees, so that texts give them back.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import fields, replace
+from typing import Any
 
 from azee_solver.constraint import (
     BoneAxis,
@@ -77,6 +81,7 @@ VECTORS: tuple[Vector, ...] = (
     Towards(CHIN, OTHER_TIP),
     Rotated(Nrm(OTHER_PALM), SLANTED, math.radians(30)),
 )
+MOVING = Moving(Straight(), RIGHT_SPACE, VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)))
 POINTS: tuple[Point, ...] = (
     RIGHT_SPACE,
     NamedPoint(SigningSpace.SSSP),
@@ -84,9 +89,24 @@ POINTS: tuple[Point, ...] = (
     JointPoint(OTHER_PALM),
     VTranslate(CHIN, Vec(0.0, -0.1, 0.2)),
     Between(OTHER_TIP, CHIN, 0.25),
-    Moving(Straight(), RIGHT_SPACE, VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1))),
+    MOVING,
     WorldPoint(-0.2, 1.2, 0.3),
 )
+
+
+def moving_parts(point: Point) -> Iterator[Point]:
+    """Yield a point made of points once for each of them, which then moves."""
+    whole: Any = point
+    for field in fields(point):
+        part = getattr(whole, field.name)
+        if isinstance(part, Point):
+            yield replace(whole, **{field.name: MOVING})
+        if isinstance(part, tuple) and all(isinstance(item, Point) for item in part):
+            for n in range(len(part)):
+                yield replace(whole, **{field.name: (*part[:n], MOVING, *part[n + 1 :])})
+
+
+MOVING_POINTS: tuple[Point, ...] = tuple(made for point in POINTS for made in moving_parts(point))
 PATHS: tuple[Path, ...] = (
     Straight(),
     Arc(Scale(Nrm(OTHER_PALM), 0.125)),

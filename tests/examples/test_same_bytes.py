@@ -10,9 +10,9 @@ import pytest
 from programs import Python
 
 from azee.cli.main import run
+from azee.formats import SUFFIXES
 
 TREE = Path(__file__).parents[2] / "examples" / "tree" / "tree.azee"
-SUFFIXES = (".glb", ".json", ".bvh")
 ARBRE = """
 import sys, time
 import azee

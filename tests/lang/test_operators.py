@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import math
+import re
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from evaluations import constraints, content, group, times, value
@@ -72,6 +75,18 @@ def test_the_example_of_the_manual_evaluates_to_the_declared_kind(name: str) -> 
 
 def test_every_operator_but_the_items_of_a_file_has_an_example() -> None:
     assert [n.name for n in NATIVES.values() if not n.example] == ["def", "use"]
+
+
+def test_every_operator_is_in_an_expression_of_these_tests() -> None:
+    """Its example only tells the kind: that it gives the right value takes a test of its own."""
+    texts = (
+        ast.parse(path.read_text(encoding="utf-8")) for path in Path(__file__).parent.glob("*.py")
+    )
+    strings = (
+        node.value for text in texts for node in ast.walk(text) if isinstance(node, ast.Constant)
+    )
+    words = {word for s in strings if isinstance(s, str) for word in re.findall(r"[\w/-]+", s)}
+    assert NATIVES.keys() - words == set()
 
 
 @pytest.mark.parametrize(

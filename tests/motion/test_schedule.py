@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from every_member import CONSTRAINTS, POINTS, title
+from every_member import CONSTRAINTS, MOVING_POINTS, POINTS, title
 
 from azee.motion.keys.transpath import (
     PathMotion,
@@ -128,7 +128,7 @@ def test_a_point_that_moves_is_dynamic_and_goes_by_minimum_jerk() -> None:
     assert moving.ik_task(F(1, 2)).phase == 0.5
 
 
-@pytest.mark.parametrize("point", POINTS, ids=title)
+@pytest.mark.parametrize("point", [*POINTS, *MOVING_POINTS], ids=title)
 def test_every_point_is_known_to_move_or_to_stay(point: Point) -> None:
     frames = rig().chain.frames(rig().coordinates.idle)
     first, later = (evaluator().point(point, frames, phase) for phase in (0.0, 0.5))

@@ -26,7 +26,7 @@ PAGES = sorted(
     if page.name != "CHANGELOG.md" and "adr" not in page.parts
 )
 SUFFIX = rf"`?(?:{'|'.join(map(re.escape, WRITERS))})\b`?"
-NAME = r"(?:GLB|BVH|JSON|NPZ|SVG|PNG|ELAN|MP4|WebM)\b"
+NAME = rf"(?:{'|'.join(suffix[1:].upper() for suffix in WRITERS)}|ELAN|WebM)\b"
 BETWEEN = r"(?:, | and | or | · |\\?\||/| )"
 
 
@@ -46,7 +46,8 @@ def test_lists_are_found() -> None:
 def test_a_page_that_lists_formats_lists_all_of_a_table(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     for found in lists(text, SUFFIX):
-        assert re.findall(r"\.\w+", found) in TABLES.values(), found
+        hint = f"{found} is no table of azee.formats, or not in its order: list all of one"
+        assert re.findall(r"\.\w+", found) in TABLES.values(), hint
     assert [*lists(text, NAME)] == []  # names are not tested: list suffixes
 
 
@@ -54,11 +55,19 @@ def test_the_page_of_formats_has_a_row_and_a_section_for_each() -> None:
     page = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| \[((?:`\.\w+` ?)+)\]\(#([\w-]+)\)", page, re.M)
     suffixes = [suffix for row, _ in rows for suffix in re.findall(r"\.\w+", row)]
-    assert suffixes == TABLES["of a compilation"]
+    hint = "docs/formats.md has a row for each of azee.formats.WRITERS, in order"
+    assert suffixes == TABLES["of a compilation"], hint
     headings = {
         heading.lower().replace(" ", "-") for heading in re.findall(r"^## (.+)$", page, re.M)
     }
     assert {anchor for _, anchor in rows} <= headings
+
+
+def test_a_test_names_a_file_of_every_format() -> None:
+    """Tests that go over a table see that files are written, not what is in them."""
+    texts = (p.read_text(encoding="utf-8") for p in (ROOT / "tests").glob("*/test_*.py"))
+    found = {suffix for text in texts for suffix in re.findall(r"(?<=\w)\.\w+(?=\")", text)}
+    assert {*WRITERS} - found == set(), "no test reads these: write one in tests/export"
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,17 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from every_member import CONSTRAINTS, PALM, PATHS, POINTS, RIGHT_SPACE, TIP, VECTORS, title
+from every_member import (
+    CONSTRAINTS,
+    MOVING_POINTS,
+    PALM,
+    PATHS,
+    POINTS,
+    RIGHT_SPACE,
+    TIP,
+    VECTORS,
+    title,
+)
 from kernel_case import Case
 from stick_body import stick_body
 from tree_sign import tasks
@@ -44,7 +54,7 @@ MOVEMENTS = Transpath | Trill
 TARGETS: list[Constraint] = [
     *(c for c in CONSTRAINTS if not isinstance(c, MOVEMENTS | Morph)),
     *(Orient(BoneAxis.DIR, PALM, Relation.ACROSS, vector) for vector in VECTORS),
-    *(Place(TIP, point) for point in POINTS),
+    *(Place(TIP, point) for point in (*POINTS, *MOVING_POINTS)),
     *(Place(TIP, Moving(path, FreePoint(0.25, -0.25, 0.375), RIGHT_SPACE)) for path in PATHS),
 ]
 """Constraints that the kernels optimise, with every vector, point and path as a target."""

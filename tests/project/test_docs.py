@@ -1,4 +1,4 @@
-"""Links in the project's pages lead somewhere, and README shows its moving picture."""
+"""Links and the map lead somewhere, and README shows its moving picture."""
 
 from __future__ import annotations
 
@@ -29,6 +29,18 @@ def test_the_index_of_the_documents_names_every_page() -> None:
     index = (ROOT / "docs" / "README.md").read_text(encoding="utf-8")
     pages = {page.name for page in (ROOT / "docs").glob("*.md")} - {"README.md"}
     assert pages - set(LINK.findall(index)) == set()
+
+
+def test_the_map_of_contributing_names_all_folders_and_modules() -> None:
+    page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    rows = "\n".join(line for line in page.splitlines() if line.startswith("| `"))
+    named = re.findall(r"`((?:[\w.-]+/)+|azee/\w+\.py)`", rows)
+    assert [name for name in named if not (ROOT / name).exists()] == []
+    parts = (*ROOT.glob("azee/*/__init__.py"), *ROOT.glob("azee/motion/*/__init__.py"))
+    there = {f"{p.parent.relative_to(ROOT).as_posix()}/" for p in parts}
+    there |= {p.relative_to(ROOT).as_posix() for p in ROOT.glob("azee/[a-z]*.py")}
+    there |= {f"{folder}/" for folder in ("grammar", "rig", "solver", "tests", "docs", "editors")}
+    assert {p for p in there if not any(name.startswith(p) for name in named)} == set()
 
 
 def test_readme_opens_with_a_small_picture_that_moves_and_repeats_without_a_jump() -> None:

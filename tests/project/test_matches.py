@@ -48,6 +48,13 @@ def _named(pattern: ast.pattern) -> set[str]:
             return set()
 
 
+def named_members(tree: ast.AST) -> set[str]:
+    """Members of our unions that the matches of a file name."""
+    matches = (node for node in ast.walk(tree) if isinstance(node, ast.Match))
+    named = (_named(case.pattern) for match in matches for case in match.cases)
+    return set().union(*named) & MEMBERS
+
+
 def _catches_all(case: ast.match_case) -> bool:
     return isinstance(case.pattern, ast.MatchAs) and case.pattern.pattern is None
 

@@ -79,7 +79,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.arguments": set(),
     "azee.compilation": {
         *("azee.animation", "azee.arguments", "azee.clip", "azee.export.files", "azee.formats"),
-        *("azee.lang", "azee.motion", "azee.quality", "azee.score"),
+        *("azee.lang", "azee.motion", "azee.quality", "azee.score", "azee.wording"),
         *("azee_grammar", "azee_rig", "azee_solver"),
     },
     "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},

@@ -5,17 +5,17 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 from azee.lang.resolve import Resolving
 from azee.lang.rule import Rule, is_azop
 from azee.lang.scope import Namespace, Scope
 from azee_grammar.diagnostic import AZeeError, Diagnostic, Related
-from azee_grammar.files import TEXT_SUFFIXES, read_source
+from azee_grammar.files import TEXT_SUFFIXES, is_file, is_folder, read_source
 from azee_grammar.library import shipped, shipped_names
 from azee_grammar.nearest import nearest
-from azee_grammar.parser import parse
+from azee_grammar.parser import Parsed, parse
 from azee_grammar.source import Source
 from azee_grammar.syntax import Definition, File, Use, Utterance
 
@@ -111,9 +111,28 @@ class Librarian:
                 problems.append(self._missing(use))
             elif library.namespace is not namespace:
                 scope.libraries.append(library.namespace)
+        default = shipped_library(DEFAULT).namespace
         if not uses:
-            scope.libraries.append(shipped_library(DEFAULT).namespace)
+            scope.libraries.append(default)
+        elif default not in scope.libraries and namespace is not default:
+            scope.dropped = default
         return scope, problems
+
+    def siblings(self, file: File, path: Path) -> Namespace | None:
+        """Return the rules of the folder library that a text is a file of.
+
+        A text that only defines rules is such a file if there are others beside it. One with
+        utterances is not: what lies beside it cannot change what it means.
+        """
+        if not file.items or (own_name(file) is None and _has_utterances(file)):
+            return None
+        folder = path.parent
+        try:
+            if len(_texts(folder)) < 2:
+                return None
+        except OSError:
+            return None
+        return self._read(folder.name or folder.resolve().name, folder).namespace
 
     def _found(self, name: str, folder: Path | None) -> Library | None:
         if not _is_plain(name):
@@ -121,7 +140,7 @@ class Librarian:
         beside = () if folder is None else (folder, folder.parent)
         for place in (*beside, *self._folders):
             for path in (place / name, *(place / f"{name}{suffix}" for suffix in TEXT_SUFFIXES)):
-                if path.is_dir() if path.name == name else path.is_file():
+                if is_folder(path) if path.name == name else is_file(path):
                     return self._read(name, path)
         return shipped_library(name) if name in shipped_names() else None
 
@@ -130,8 +149,9 @@ class Librarian:
             return self._libraries[path]
         library = Library(Namespace(name))
         self._libraries[path] = library
-        files = _texts(path) if path.is_dir() else [path]
-        folder = path if path.is_dir() else path.parent
+        is_whole = is_folder(path)
+        files = _texts(path) if is_whole else [path]
+        folder = path if is_whole else path.parent
         library.diagnostics += _same_but_for_case(files)
         for file in files:
             try:
@@ -143,7 +163,7 @@ class Librarian:
         return library
 
     def _add(self, library: Library, source: Source, folder: Path) -> None:
-        parsed = parse(source)
+        parsed = _parsed(source)
         library.diagnostics += parsed.diagnostics
         scope, problems = self.scope(library.namespace, parsed.file, folder)
         library.diagnostics += problems
@@ -182,6 +202,16 @@ def _is_plain(name: str) -> bool:
 
 def _texts(folder: Path) -> list[Path]:
     return sorted(path for path in folder.iterdir() if path.suffix in TEXT_SUFFIXES)
+
+
+def _has_utterances(file: File) -> bool:
+    return any(isinstance(item, Utterance) for item in file.items)
+
+
+@lru_cache(maxsize=256)
+def _parsed(source: Source) -> Parsed:
+    """Parse a text of a library, once: each file of a folder that is checked reads the others."""
+    return parse(source)
 
 
 def _same_but_for_case(files: Sequence[Path]) -> Iterator[Diagnostic]:

@@ -27,7 +27,7 @@ from azee.lang.values import Kind, ScoreValue, Value
 from azee.score.layout import in_sequence
 from azee.score.score import Score
 from azee_grammar.diagnostic import AZeeError, Diagnostic, Severity
-from azee_grammar.files import read_source
+from azee_grammar.files import is_file, read_source
 from azee_grammar.parser import parse, parse_expression
 from azee_grammar.source import Source, Span
 from azee_grammar.syntax import Application, Expr, File, Item, RuleName, Utterance
@@ -61,6 +61,8 @@ class Program:
     limits: Limits
     found: tuple[Diagnostic, ...]
     """Mistakes in the text and its libraries that were found before resolving."""
+    beside: Librarian
+    """Has the library that the text is a file of; its mistakes count where its rules are used."""
 
     @property
     def utterances(self) -> tuple[UtteranceScore, ...]:
@@ -177,7 +179,8 @@ class Program:
         """Yield the mistakes in rules, also in shipped rules if they were used."""
         for rule in self._own_rules():
             yield from rule.diagnostics
-        for namespace in (self.scope.core, *self.scope.libraries):
+        beside = (library.namespace for library in self.beside.libraries)
+        for namespace in (*beside, self.scope.core, *self.scope.libraries):
             for rule in namespace.rules.values():
                 yield from rule.diagnostics
 
@@ -226,6 +229,7 @@ def load(
     libraries: Sequence[Path] = (),
     limits: Limits = DEFAULT_LIMITS,
     read: Callable[[Path], Source] = read_source,
+    place: Path | None = None,
 ) -> Program:
     """Parse a text and the libraries it uses; nothing is evaluated yet.
 
@@ -233,20 +237,32 @@ def load(
 
     Args: libraries: folders in which `use` looks, after the folder of the text.
         read: reads the texts of libraries; an editor has newer versions than the disk.
+        place: the file of the text, by default the one of the source's name, if it exists.
     """
     parsed = parse(source)
     resolving = Resolving(Machine(limits))
     core = shipped_library(CORE).namespace
     librarian = Librarian(tuple(libraries), resolving, core, read)
     namespace = Namespace(None)
-    path = Path(source.name)
-    folder = path.parent if path.is_file() else None
-    scope, problems = librarian.scope(namespace, parsed.file, folder)
+    path = place
+    if path is None and is_file(named := Path(source.name)):
+        path = named
+    scope, problems = librarian.scope(namespace, parsed.file, path and path.parent)
+    beside = Librarian(tuple(libraries), resolving, core, read)
+    if path is not None:
+        scope.siblings = beside.siblings(parsed.file, path)
     duplicates = define(namespace, definitions(parsed.file), scope, resolving)
     found = (*parsed.diagnostics, *problems, *duplicates)
     in_libraries = tuple(d for library in librarian.libraries for d in library.diagnostics)
     return Program(
-        source, parsed.file, scope, librarian, resolving, limits, (*found, *in_libraries)
+        source,
+        parsed.file,
+        scope,
+        librarian,
+        resolving,
+        limits,
+        (*found, *in_libraries),
+        beside,
     )
 
 

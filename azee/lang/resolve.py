@@ -249,6 +249,12 @@ class Resolver:
                     f"a name goes on after a space: to apply `:{head}`, write "
                     f"`:{head}({', '.join(words[k:])})`"
                 )
+        dropped = self.scope.dropped
+        if dropped is not None and name in dropped.rules:
+            library = dropped.name
+            return (
+                f"`{library}` is out of scope because the text says `use`; add `use '{library}`"
+            )
         hint = did_you_mean(name, known, ":")
         if hint is None and name in NATIVES:
             return f"`{name}` is an operator: write it without `:`"
@@ -265,6 +271,8 @@ class Resolver:
             hint = f"did you mean `^{name}`?"
         elif self._defined(name):
             hint = f"`{name}` is a rule: write `:{name}`"
+        elif self.scope.dropped is not None and name in self.scope.dropped.rules:
+            hint = self._rule_help(name)
         elif name in bone_names():
             hint = f"`{name}` is a bone: write `!{name}`"
         elif name in site_names():

@@ -33,12 +33,16 @@ class AmbiguousRule(Exception):  # noqa: N818 - not an error of ours: the caller
 class Scope:
     """The namespaces that are visible in a text: its own, those it uses, then the core.
 
-    `libraries` is filled after its rules are made, since libraries may use each other.
+    `libraries` is filled after its rules are made, since libraries may use each other. `siblings`
+    are the rules of the library that the text is a file of, if it is read alone. `dropped` is the
+    default library where the text uses others instead.
     """
 
     own: Namespace
     core: Namespace
     libraries: list[Namespace] = field(default_factory=list)
+    siblings: Namespace | None = None
+    dropped: Namespace | None = None
 
     def find(self, name: str) -> Rule | None:
         """Return the rule that a name means here.
@@ -47,6 +51,8 @@ class Scope:
         """
         if name in self.own.rules:
             return self.own.rules[name]
+        if self.siblings is not None and name in self.siblings.rules:
+            return self.siblings.rules[name]
         found = tuple(library.rules[name] for library in self._used() if name in library.rules)
         if len(found) > 1:
             raise AmbiguousRule(found)
@@ -59,7 +65,7 @@ class Scope:
 
     def names(self) -> tuple[str, ...]:
         """Return all names that have a meaning here."""
-        visible: Mapping[str, None] = dict.fromkeys(
-            name for space in (self.own, *self._used(), self.core) for name in space.rules
-        )
+        beside = () if self.siblings is None else (self.siblings,)
+        spaces = (self.own, *beside, *self._used(), self.core)
+        visible: Mapping[str, None] = dict.fromkeys(name for space in spaces for name in space.rules)
         return tuple(visible)

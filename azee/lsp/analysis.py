@@ -158,5 +158,5 @@ def analyse(
         texts[path] = read(path)
         return texts[path]
 
-    program = load(document.source, folders, read=noted)
+    program = load(document.source, folders, read=noted, place=document.path)
     return Analysis(document, program, tuple(texts.values()), tuple(folders))

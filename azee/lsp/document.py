@@ -95,11 +95,24 @@ def _units(text: str) -> int:
 
 
 def path_of(uri: str) -> Path | None:
-    """Return the path of a `file:` address, None for others, such as those of unsaved texts."""
+    """Return the path of a `file:` address.
+
+    Return None for other addresses, such as those of unsaved texts, and for those that no file
+    can have.
+    """
     from pygls.uris import to_fs_path
 
-    found = to_fs_path(uri) if uri.startswith("file:") else None
-    return None if found is None else Path(found)
+    try:
+        found = to_fs_path(uri) if uri.startswith("file:") else None
+        path = None if found is None else Path(found)
+        if path is None or not path.is_absolute():
+            return None
+        path.lstat()
+    except (FileNotFoundError, NotADirectoryError, PermissionError):
+        return path  # it may be made yet
+    except (OSError, ValueError):  # no address, a NUL in the name, a name that is too long
+        return None
+    return path
 
 
 def uri_of(path: Path) -> str:

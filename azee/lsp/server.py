@@ -16,6 +16,7 @@ from azee.lsp.analysis import Analysis
 from azee.lsp.document import Document, path_of
 from azee.lsp.messages import messages
 from azee.lsp.occurrences import Occurrence
+from azee.lsp.protocol import Protocol
 from azee.lsp.renaming import CannotRename, places, renamed
 from azee.lsp.texts import Texts
 from azee_grammar.diagnostic import AZeeError
@@ -32,7 +33,7 @@ class Server(LanguageServer):
     """The language server; `texts` has all texts that it knows."""
 
     def __init__(self, libraries: Sequence[Path] = ()) -> None:
-        super().__init__("azee", version("azee"))
+        super().__init__("azee", version("azee"), protocol_cls=Protocol)
         self.texts = Texts(libraries)
         self._waiting: dict[str, asyncio.TimerHandle] = {}
 
@@ -138,9 +139,14 @@ def _follow_texts(server: Server) -> None:
         server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
         server.check_all()
 
+    # pygls passes the server instead to a handler whose parameter may be one, such as an `object`.
     @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
+    def saved(_: types.DidSaveTextDocumentParams) -> None:
+        texts.disk_changed()
+        server.check_all()
+
     @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
-    def on_disk(_: object) -> None:
+    def on_disk(_: types.DidChangeWatchedFilesParams) -> None:
         texts.disk_changed()
         server.check_all()
 

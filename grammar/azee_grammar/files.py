@@ -16,6 +16,22 @@ TEXT_SUFFIXES = (".azee", ".az")
 """Suffixes of files with AZee."""
 STANDARD_INPUT = "-"
 
+def is_file(path: Path) -> bool:
+    """Whether there is a plain file; no if the system takes no such name, as one too long."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def is_folder(path: Path) -> bool:
+    """Whether there is a folder; no if the system takes no such name, as one too long."""
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
+
+
 _BOM = b"\xef\xbb\xbf"
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")
 
@@ -31,7 +47,7 @@ def read_source(path: str | os.PathLike[str]) -> Source:
     if name == STANDARD_INPUT:
         return decode(sys.stdin.buffer.read(LARGEST_BYTES + 1), "<stdin>")
     try:
-        if Path(name).is_dir():
+        if is_folder(Path(name)):
             raise AZeeError(
                 Diagnostic(
                     "cannot-read",

@@ -6,7 +6,9 @@ import asyncio
 import os
 import sys
 from collections.abc import AsyncIterator, Sequence
+from concurrent.futures import Future
 from contextlib import asynccontextmanager
+from itertools import count
 from pathlib import Path
 
 from lsprotocol import types
@@ -22,14 +24,21 @@ class Editor:
         self.client, self.folder = client, folder
         self.texts: dict[str, str] = {}
         self.messages: dict[str, types.PublishDiagnosticsParams] = {}
+        self.complaints: list[str] = []
+        """What the server told the person beside mistakes in texts, such as a fault of its own."""
         self._told = asyncio.Condition()
         self._versions: dict[str, int] = {}
+        self._numbers = count()
 
         @client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)  # type: ignore[untyped-decorator]
         async def told(params: types.PublishDiagnosticsParams) -> None:
             async with self._told:
                 self.messages[params.uri] = params
                 self._told.notify_all()
+
+        @client.feature(types.WINDOW_SHOW_MESSAGE)  # type: ignore[untyped-decorator]
+        async def complained(params: types.ShowMessageParams) -> None:
+            self.complaints.append(params.message)
 
     def uri(self, name: str) -> str:
         return (self.folder / name).as_uri()
@@ -67,6 +76,17 @@ class Editor:
         change = types.TextDocumentContentChangePartial(place, new)
         self.client.text_document_did_change(types.DidChangeTextDocumentParams(item, [change]))
         return await self.codes(name)
+
+    async def ask(self, method: str, parameters: dict[str, object]) -> object:
+        """Send a request as it is, right or wrong, and return the answer."""
+        number = f"raw {next(self._numbers)}"
+        answer: Future[object] = Future()
+        protocol = self.client.protocol
+        protocol._request_futures[number] = answer
+        protocol._send_data(
+            {"jsonrpc": "2.0", "id": number, "method": method, "params": parameters}
+        )
+        return await asyncio.wrap_future(answer)
 
     async def codes(self, name: str) -> Sequence[str]:
         """Wait for the messages on the newest version; returns their codes."""

@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 import pytest
-from editor import Editor, editor
+from editor import SOON_S, Editor, editor
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 
@@ -206,5 +206,129 @@ def test_outline_symbols_and_colours(tmp_path: Path) -> None:
             spans.append(units[2 * start : 2 * (start + length)].decode("utf-16-le"))
         assert spans[:4] == ["def", "été", "'meaning", '"summer"']
         assert spans[-6:] == ["def", "😀", ":été", "'où", "^Lssp", ":été"]
+
+    play(tmp_path, scene)
+
+
+def test_saved_changed_and_deleted_libraries_count_at_once(tmp_path: Path) -> None:
+    library = tmp_path / "signs.azee"
+    library.write_text("def old\n    :chat\n", encoding="utf-8")
+    for name in ("main.azee", "other.azee"):
+        (tmp_path / name).touch()
+    (tmp_path / "lib").mkdir()
+    (tmp_path / "lib" / "a.azee").write_text("def gone\n    :chat\n", encoding="utf-8")
+
+    async def scene(one: Editor) -> None:
+        client = one.client
+
+        def watched(name: str, how: types.FileChangeType) -> None:
+            client.workspace_did_change_watched_files(
+                types.DidChangeWatchedFilesParams([types.FileEvent(one.uri(name), how)])
+            )
+
+        assert await one.open("main.azee", "use 'signs\nuse 'lsf\n:new\n") == ["unknown-rule"]
+        library.write_text("def new\n    :chat\n", encoding="utf-8")
+        client.text_document_did_save(types.DidSaveTextDocumentParams(one.item("main.azee")))
+        await one.wait_for_codes("main.azee", [])
+        library.write_text("def newer\n    :chat\n", encoding="utf-8")
+        watched("signs.azee", types.FileChangeType.Changed)
+        await one.wait_for_codes("main.azee", ["unknown-rule"])
+        library.unlink()
+        watched("signs.azee", types.FileChangeType.Deleted)
+        await one.wait_for_codes("main.azee", ["library-not-found", "unknown-rule"])
+
+        assert await one.open("other.azee", "use 'lib\n:gone\n") == []
+        (tmp_path / "lib" / "a.azee").unlink()
+        watched("lib/a.azee", types.FileChangeType.Deleted)
+        await one.wait_for_codes("other.azee", ["unknown-rule"])
+        (tmp_path / "lib").rmdir()
+        watched("lib", types.FileChangeType.Deleted)
+        await one.wait_for_codes("other.azee", ["library-not-found", "unknown-rule"])
+        found = await client.workspace_symbol_async(types.WorkspaceSymbolParams("gone"))
+        assert found == []
+        assert one.complaints == []
+
+    play(tmp_path, scene)
+
+
+AT_THE_START = {"line": 0, "character": 0}
+
+
+def test_a_request_that_nobody_can_read_is_answered(tmp_path: Path) -> None:
+    requests: list[tuple[str, dict[str, object], str]] = [
+        ("textDocument/hover", {"position": {"line": -1, "character": 0}}, "-1"),
+        ("textDocument/completion", {"position": {"line": 0, "character": -5}}, "-5"),
+        ("textDocument/hover", {"position": {"line": "first", "character": 0}}, "first"),
+        ("textDocument/definition", {}, "position"),
+        ("textDocument/hover", {"position": AT_THE_START, "textDocument": 3}, "textDocument"),
+        ("textDocument/nothing", {}, "nothing"),
+    ]
+
+    async def scene(one: Editor) -> None:
+        assert await one.open("a.azee", ":chat\n") == []
+        item = {"textDocument": {"uri": one.uri("a.azee")}}
+        for method, parameters, reason in requests:
+            with pytest.raises(JsonRpcException, match=reason):
+                await asyncio.wait_for(one.ask(method, item | parameters), SOON_S)
+        good = item | {"position": AT_THE_START}
+        assert await asyncio.wait_for(one.ask("textDocument/hover", good), SOON_S)
+
+    play(tmp_path, scene)
+
+
+IMPOSSIBLE = (
+    "file:///a%00b.azee",
+    f"file:///{'a' * 5000}.azee",
+    f"file:///{'a/' * 5000}",
+    "file://[",
+    "file:",
+    "file:a.azee",
+    "untitled:" + "a" * 5000,
+    "",
+)
+
+
+def test_texts_at_impossible_addresses_hinder_no_other(tmp_path: Path) -> None:
+    async def scene(one: Editor) -> None:
+        client = one.client
+        for uri in IMPOSSIBLE:
+            item = types.TextDocumentItem(uri, "azee", 1, "def odd\n    :chat\n")
+            client.text_document_did_open(types.DidOpenTextDocumentParams(item))
+        codes = ["library-not-found", "unknown-rule"]
+        assert await one.open("a.azee", f"use '{'n' * 300}\n:caht\n") == codes
+        await one.replace("a.azee", f"use '{'n' * 300}\n:caht", "def mine\n    :chat")
+        where = one.at("a.azee", "mine")
+        references = await client.text_document_references_async(
+            types.ReferenceParams(types.ReferenceContext(True), one.item("a.azee"), where)
+        )
+        assert references is not None
+        assert len(references) == 1
+        found = await client.workspace_symbol_async(types.WorkspaceSymbolParams("mine"))
+        assert found is not None
+        assert [symbol.name for symbol in found] == ["mine"]
+
+    play(tmp_path, scene)
+
+
+def test_a_file_of_a_library_sees_the_others(tmp_path: Path) -> None:
+    shared = "def shared\n    azop\n        'shape 'nodefault\n        apply ^shape\n"
+    folder = tmp_path / "lib"
+    folder.mkdir()
+    (folder / "a.azee").write_text(shared, encoding="utf-8")
+
+    async def scene(one: Editor) -> None:
+        # not yet on the disk, and with rules that the other file lacks or has
+        assert await one.open("lib/b.azee", "def b\n    key 1 :#shared(.flat-hand)\n") == []
+        await one.open("lib/a.azee", shared)
+        await one.replace("lib/a.azee", "def shared", "def other")
+        await one.wait_for_codes("lib/b.azee", ["unknown-rule"])
+        await one.replace("lib/a.azee", "def other", "def shared")
+        await one.wait_for_codes("lib/b.azee", [])
+        use = one.at("lib/b.azee", "shared", 1)
+        place = await one.client.text_document_definition_async(
+            types.DefinitionParams(one.item("lib/b.azee"), use)
+        )
+        assert isinstance(place, types.Location)
+        assert place.uri == one.uri("lib/a.azee")
 
     play(tmp_path, scene)

@@ -6,6 +6,7 @@ pages of the manual to them.
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -41,6 +42,8 @@ def cannot_write(path: str | Path, error: OSError) -> Diagnostic:
         return Diagnostic("cannot-write", f"there is no folder `{folder}` for `{path}`", None)
     if isinstance(error, IsADirectoryError):
         return Diagnostic("cannot-write", f"`{path}` is a directory", None)
+    if error.errno == errno.ENAMETOOLONG:
+        return Diagnostic("cannot-write", f"cannot write `{path}`: its name is too long", None)
     if isinstance(error, NotADirectoryError) and Path(path).is_file():
         return Diagnostic("cannot-write", f"`{path}` is a file, not a directory", None)
     if isinstance(error, NotADirectoryError):

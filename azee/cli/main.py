@@ -106,6 +106,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
         _abandon_output()
         return FAULT
     except OSError as error:
+        if error.errno == errno.ENAMETOOLONG and error.filename is not None:
+            message = f"the name `{os.fsdecode(error.filename)}` is too long"
+            show([Diagnostic("cannot-read", message, None)])
+            return FAULT
         if error.errno not in FULL or error.filename is not None:
             raise
         _abandon_output()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -33,7 +34,7 @@ def check_outputs(paths: Iterable[Path]) -> None:
     Raises: AZeeError: cannot-write, one diagnostic for each. click.UsageError: two are one file.
     """
     paths = list(paths)
-    places = [path.resolve() for path in paths]
+    places = [_place(path) for path in paths]
     for path, place in zip(paths, places, strict=True):
         if places.count(place) > 1:
             raise click.UsageError(f"`{path}` would be written twice")
@@ -54,12 +55,25 @@ def size_of(path: Path) -> str:
     return f"{size / 1e6:.1f} MB" if size >= 1e6 else f"{max(1, round(size / 1e3))} kB"
 
 
+def _place(path: Path) -> Path:
+    """Return what a path leads to; itself if the system takes no such path."""
+    try:
+        return path.resolve()
+    except (OSError, ValueError, RuntimeError):
+        return path
+
+
 def _obstacle(path: Path) -> OSError | None:
-    folder = path.resolve().parent
-    if path.is_dir():
-        return IsADirectoryError()
-    if not folder.exists():
-        return FileNotFoundError()
-    if not folder.is_dir():
-        return NotADirectoryError()
+    try:
+        folder = path.resolve().parent
+        if path.is_dir():
+            return IsADirectoryError()
+        if not folder.exists():
+            return FileNotFoundError()
+        if not folder.is_dir():
+            return NotADirectoryError()
+    except OSError as error:  # such as a name that is too long
+        return error
+    except (ValueError, RuntimeError):  # a NUL in the name; links in a circle
+        return OSError(errno.EINVAL, os.strerror(errno.EINVAL))
     return None if os.access(folder, os.W_OK) else PermissionError()

@@ -10,6 +10,10 @@ from pathlib import Path
 from typing import BinaryIO
 
 
+_SHOWN = 40
+"""Characters of a name that the hidden file repeats: a name as long as any may be stays legal."""
+
+
 @contextmanager
 def replace_file(path: str | Path) -> Iterator[BinaryIO]:
     """Open a file for binary writing that replaces `path` if there was no error.
@@ -30,12 +34,14 @@ def replace_path(path: str | Path) -> Iterator[Path]:
     is as it was before and the hidden file is gone. A symbolic link is followed, and the
     permissions are those of a plain `open`.
 
-    Raises: OSError: the folder is missing or not writable, or `path` is a folder.
+    Raises: OSError: the folder is missing or not writable, `path` is a folder, or its name is
+        too long.
     """
     target = Path(path).resolve()
     if target.is_dir():
         raise IsADirectoryError(21, "it is a directory", str(path))
-    number, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent)
+    prefix = f".{target.name[:_SHOWN]}."
+    number, name = tempfile.mkstemp(prefix=prefix, suffix=".part", dir=target.parent)
     os.close(number)
     part = Path(name)
     try:

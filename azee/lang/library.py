@@ -108,7 +108,7 @@ class Librarian:
         for use in uses:
             library = self._found(use.library.name, folder)
             if library is None:
-                problems.append(self._missing(use))
+                problems.append(self._missing(use, folder))
             elif library.namespace is not namespace:
                 scope.libraries.append(library.namespace)
         default = shipped_library(DEFAULT).namespace
@@ -128,21 +128,32 @@ class Librarian:
             return None
         folder = path.parent
         try:
-            if len(_texts(folder)) < 2:
-                return None
+            others = [text for text in _texts(folder) if text != path]
         except OSError:
+            return None
+        if not others:
             return None
         return self._read(folder.name or folder.resolve().name, folder).namespace
 
     def _found(self, name: str, folder: Path | None) -> Library | None:
         if not _is_plain(name):
             return None
+        for path in self._candidates(name, folder):
+            if not _leads_outside(path, path.parent):
+                return self._read(name, path)
+        return shipped_library(name) if name in shipped_names() else None
+
+    def _candidates(self, name: str, folder: Path | None) -> Iterator[Path]:
+        """Yield the folders and texts of a plain name, the nearest first."""
         beside = () if folder is None else (folder, folder.parent)
         for place in (*beside, *self._folders):
             for path in (place / name, *(place / f"{name}{suffix}" for suffix in TEXT_SUFFIXES)):
                 if is_folder(path) if path.name == name else is_file(path):
-                    return self._read(name, path)
-        return shipped_library(name) if name in shipped_names() else None
+                    yield path
+
+    def _outside(self, name: str, folder: Path | None) -> Path | None:
+        """Return the first link of a name that is not followed."""
+        return next(self._candidates(name, folder), None)
 
     def _read(self, name: str, path: Path) -> Library:
         if path in self._libraries:
@@ -150,10 +161,17 @@ class Librarian:
         library = Library(Namespace(name))
         self._libraries[path] = library
         is_whole = is_folder(path)
-        files = _texts(path) if is_whole else [path]
         folder = path if is_whole else path.parent
+        try:
+            files = _texts(path) if is_whole else [path]
+        except OSError as problem:
+            library.diagnostics.append(_unreadable(path, problem))
+            return library
         library.diagnostics += _same_but_for_case(files)
         for file in files:
+            if is_whole and (obstacle := _obstacle(file, path)):
+                library.diagnostics.append(obstacle)
+                continue
             try:
                 source = self._read_source(file)
             except AZeeError as problem:
@@ -171,11 +189,13 @@ class Librarian:
             library.namespace, definitions(parsed.file), scope, self._resolving
         )
 
-    def _missing(self, use: Use) -> Diagnostic:
+    def _missing(self, use: Use, folder: Path | None) -> Diagnostic:
         name = use.library.name
         found = [f"`'{candidate}`" for candidate in nearest(name, shipped_names())]
         if not _is_plain(name):
             hint = "a library has a plain name; `--library DIR` adds folders to look in"
+        elif outside := self._outside(name, folder):
+            hint = f"`{outside}` is a link that leads outside its folder, and is not followed"
         elif found:
             hint = f"did you mean {' or '.join(found)}?"
         else:
@@ -191,9 +211,13 @@ def names_in(folder: Path) -> list[str]:
 
     Raises: OSError: the folder cannot be read.
     """
-    inside = [path for path in folder.iterdir() if _is_plain(path.name)]
-    texts = {path.stem for path in inside if path.suffix in TEXT_SUFFIXES}
-    return sorted(texts | {path.name for path in inside if path.is_dir() and _texts(path)})
+    inside = [
+        path
+        for path in folder.iterdir()
+        if _is_plain(path.name) and not _leads_outside(path, folder)
+    ]
+    texts = {path.stem for path in inside if path.suffix in TEXT_SUFFIXES and is_file(path)}
+    return sorted(texts | {path.name for path in inside if is_folder(path) and _has_texts(path)})
 
 
 def _is_plain(name: str) -> bool:
@@ -202,6 +226,37 @@ def _is_plain(name: str) -> bool:
 
 def _texts(folder: Path) -> list[Path]:
     return sorted(path for path in folder.iterdir() if path.suffix in TEXT_SUFFIXES)
+
+
+def _has_texts(folder: Path) -> bool:
+    """Whether a folder is a library; what cannot be listed may be one, and is told when read."""
+    try:
+        return bool(_texts(folder))
+    except OSError:
+        return True
+
+
+def _leads_outside(path: Path, folder: Path) -> bool:
+    """Whether a path in a folder is a link to something that is not in it."""
+    try:
+        return path.is_symlink() and not path.resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError):  # links in a circle
+        return True
+
+
+def _obstacle(file: Path, library: Path) -> Diagnostic | None:
+    """Return why a text in a folder library is not read: a link out of it, a pipe, a device."""
+    if _leads_outside(file, library):
+        message = f"`{file}` is a link that leads outside its library"
+        return Diagnostic("cannot-read", message, None, help="copy the text into the folder")
+    if file.exists() and not is_file(file) and not is_folder(file):
+        return Diagnostic("cannot-read", f"`{file}` is not a plain file", None)
+    return None
+
+
+def _unreadable(folder: Path, problem: OSError) -> Diagnostic:
+    reason = f": {problem.strerror.lower()}" if problem.strerror else ""
+    return Diagnostic("cannot-read", f"cannot read the folder `{folder}`{reason}", None)
 
 
 def _has_utterances(file: File) -> bool:

@@ -252,9 +252,7 @@ class Resolver:
         dropped = self.scope.dropped
         if dropped is not None and name in dropped.rules:
             library = dropped.name
-            return (
-                f"`{library}` is out of scope because the text says `use`; add `use '{library}`"
-            )
+            return f"`{library}` is out of scope because the text says `use`; add `use '{library}`"
         hint = did_you_mean(name, known, ":")
         if hint is None and name in NATIVES:
             return f"`{name}` is an operator: write it without `:`"

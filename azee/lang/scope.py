@@ -67,5 +67,7 @@ class Scope:
         """Return all names that have a meaning here."""
         beside = () if self.siblings is None else (self.siblings,)
         spaces = (self.own, *beside, *self._used(), self.core)
-        visible: Mapping[str, None] = dict.fromkeys(name for space in spaces for name in space.rules)
+        visible: Mapping[str, None] = dict.fromkeys(
+            name for space in spaces for name in space.rules
+        )
         return tuple(visible)

@@ -31,6 +31,7 @@ def assemble(
     resolving = Resolving(Machine(DEFAULT_LIMITS))
     core = shipped_library(CORE).namespace
     librarian = Librarian(shelf.folders, resolving, core, shelf.read)
+    beside = Librarian(shelf.folders, resolving, core, shelf.read)
     own = Namespace(None)
     uses, typed = tuple(uses), tuple(typed)
     items: tuple[Item, ...] = (*uses, *typed)
@@ -47,6 +48,7 @@ def assemble(
             continue
         namespace = Namespace(None)
         scope, problems = librarian.scope(namespace, parsed.file, path.parent)
+        scope.siblings = beside.siblings(parsed.file, path)
         duplicates = define(namespace, definitions(parsed.file), scope, resolving)
         found += (*parsed.diagnostics, *problems, *duplicates)
         from_files.rules |= namespace.rules
@@ -54,18 +56,28 @@ def assemble(
             files_use = True
             libraries += scope.libraries
 
+    default = _default(librarian)
     scope, problems = librarian.scope(own, File(Span(PROMPT, 0, 0), uses), Path.cwd())
     if uses and not files_use:
-        scope.libraries += _default(librarian)
+        scope.libraries += default
+        scope.dropped = None
     found += (*problems, *define(own, typed, scope, resolving))
     own.rules = {**from_files.rules, **own.rules}
     if files_use and not uses:
         scope.libraries.clear()
+        scope.dropped = None if default[0] in libraries else default[0]
     scope.libraries += libraries
     in_libraries = [d for library in librarian.libraries for d in library.diagnostics]
     file = File(Span(PROMPT, 0, 0), items)
     return Program(
-        PROMPT, file, scope, librarian, resolving, DEFAULT_LIMITS, (*found, *in_libraries)
+        PROMPT,
+        file,
+        scope,
+        librarian,
+        resolving,
+        DEFAULT_LIMITS,
+        (*found, *in_libraries),
+        beside,
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from pathlib import Path
@@ -15,6 +16,7 @@ LARGEST_BYTES = 16 * 1024 * 1024
 TEXT_SUFFIXES = (".azee", ".az")
 """Suffixes of files with AZee."""
 STANDARD_INPUT = "-"
+
 
 def is_file(path: Path) -> bool:
     """Whether there is a plain file; no if the system takes no such name, as one too long."""
@@ -83,6 +85,8 @@ def _unreadable(name: str, problem: OSError | ValueError) -> Diagnostic:
         return Diagnostic("cannot-read", f"there is no file `{name}`", None)
     if isinstance(problem, PermissionError):
         return Diagnostic("cannot-read", f"no permission to read `{name}`", None)
+    if isinstance(problem, OSError) and problem.errno == errno.ENAMETOOLONG:
+        return Diagnostic("cannot-read", f"cannot read `{name}`: its name is too long", None)
     reason = problem.strerror if isinstance(problem, OSError) else None
     why = f": {reason[0].lower()}{reason[1:]}" if reason else ""
     return Diagnostic("cannot-read", f"cannot read `{name}`{why}", None)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 from evaluations import found, problems, program
 
+from azee.lang.library import names_in
 from azee.lang.program import evaluate_expression, load
 from azee_grammar.diagnostic import AZeeError
 from azee_grammar.files import read_source
@@ -185,3 +187,74 @@ def test_an_utterance_known_to_be_right_is_passed_over() -> None:
     assert program.problems(right) == ()
     assert [d.code for d in program.problems(wrong)] == ["unknown-rule"]
     assert len(program.check(sound={wrong})) == 1
+
+
+SIBLINGS = {
+    "sib/a.azee": "def shared\n    azop\n        'shape 'nodefault\n        apply ^shape\n",
+    "sib/b.azee": "def uses\n    key 1 :#shared(.flat-hand)\ndef bien\n    blank 7\n",
+    "sib/own.azee": "azop 'd 3\n    seq(list(:bien, blank ^d))\n",
+}
+
+
+def _checked(path: Path) -> list[str]:
+    return [d.code for d in load(read_source(path)).check()]
+
+
+def test_a_file_of_a_folder_library_sees_the_others(tmp_path: Path) -> None:
+    _write(tmp_path, SIBLINGS | {"sib/c.azee": "use 'sib\ndef q\n    key 1 :#shared(.fist)\n"})
+    for name in ("a", "b", "c", "own"):
+        assert _checked(tmp_path / f"sib/{name}.azee") == []
+    one = load(read_source(tmp_path / "sib/own.azee"))
+    # the library's own `bien` counts in it; `seq` puts .2 s between the two
+    assert float(one.evaluate(":own").score.duration) == 7 + 0.2 + 3
+
+
+def test_a_mistake_in_a_sibling_counts_where_its_rule_is_used(tmp_path: Path) -> None:
+    broken = "def shared\n    key 1 :nobody\ndef other\n    key 1 :nothing\ndef c\n    (\n"
+    _write(tmp_path, {"sib/a.azee": broken, "sib/b.azee": "def b\n    :shared\n"})
+    assert _checked(tmp_path / "sib/b.azee") == []
+    with pytest.raises(AZeeError, match="nobody"):
+        load(read_source(tmp_path / "sib/b.azee")).evaluate(":b")
+
+
+def test_a_text_with_utterances_does_not_see_what_lies_beside(tmp_path: Path) -> None:
+    _write(tmp_path, SIBLINGS | {"sib/text.azee": ":bien\n:uses\n", "sib/empty.azee": "\n"})
+    assert _checked(tmp_path / "sib/text.azee") == ["unknown-rule"]
+    assert _checked(tmp_path / "sib/empty.azee") == []
+
+
+def test_where_use_drops_the_default_library_the_help_says_so(tmp_path: Path) -> None:
+    _write(tmp_path, SIBLINGS)
+    for text in ("use 'sib\n:arbre", "use 'sib\ndef a\n    :arbre"):
+        (found,) = load(Source("<text>", text), [tmp_path]).check()
+        assert found.code == "unknown-rule"
+        assert found.help == ("`lsf` is out of scope because the text says `use`; add `use 'lsf`")
+    assert load(Source("<text>", "use 'sib\nuse 'lsf\n:arbre"), [tmp_path]).check() == ()
+    (found,) = load(Source("<text>", "use 'sib\n:arbr"), [tmp_path]).check()
+    assert "out of scope" not in (found.help or "")
+
+
+def test_links_and_pipes_in_a_library_are_told_and_not_read(tmp_path: Path) -> None:
+    _write(tmp_path, {"lib/mine/a.azee": "def one\n    blank 1\n", "out/b.azee": "def two\n"})
+    library = tmp_path / "lib" / "mine"
+    (library / "b.azee").symlink_to(tmp_path / "out" / "b.azee")
+    os.mkfifo(library / "pipe.azee")
+    (tmp_path / "lib" / "away").symlink_to(tmp_path / "out")
+    (tmp_path / "lib" / "round").symlink_to(tmp_path / "lib" / "round")
+    (tmp_path / "lib" / "same").symlink_to(library)
+    os.mkfifo(tmp_path / "lib" / "wind.azee")
+    assert names_in(tmp_path / "lib") == ["mine", "same"]
+    found = load(Source("<text>", "use 'mine\n:one"), [tmp_path / "lib"]).check()
+    assert [(d.code, d.message.split("` ")[1]) for d in found] == [
+        ("cannot-read", "is a link that leads outside its library"),
+        ("cannot-read", "is not a plain file"),
+    ]
+    (found_none,) = load(Source("<text>", "use 'away\n"), [tmp_path / "lib"]).check()
+    assert found_none.code == "library-not-found"
+    assert "leads outside" in (found_none.help or "")
+
+
+def test_a_library_of_a_name_that_no_system_takes_is_not_found() -> None:
+    (found,) = load(Source("<text>", f"use '{'n' * 300}\n"), [Path()]).check()
+    assert found.code == "library-not-found"
+    assert load(Source("n" * 300, ":arbre\n")).check() == ()

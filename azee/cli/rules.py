@@ -5,18 +5,20 @@ from __future__ import annotations
 import shutil
 import textwrap
 import unicodedata
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from azee.cli.console import DONE, FAULT, as_json, show, show_json
 from azee.cli.text import library_option
-from azee_grammar.diagnostic import AZeeError, Diagnostic, Severity
+from azee_grammar.diagnostic import Diagnostic, Severity
 
 if TYPE_CHECKING:
     from azee.lang.rule import Rule
     from azee.lang.scope import Namespace
+    from azee_grammar.source import Span
 
 
 INDENT = 12
@@ -30,30 +32,60 @@ INDENT = 12
     help="Only rules with TEXT in their name, meaning, source or arguments.",
 )
 @library_option
-def rules(name: str | None, search: str | None, libraries: Sequence[Path]) -> None:
+@click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
+def rules(name: str | None, search: str | None, libraries: Sequence[Path], form: str) -> int:
     """List the rules that ship, or show NAME: meaning, arguments, source, an example.
 
-    With --library the rules of the libraries in a folder too.
+    With --library the rules of the libraries in a folder too: those that can be read, then what is
+    wrong with the others.
+
+    Exit codes: 0 done, 1 no such rule or mistakes in a library, 2 wrong use.
     """
-    known = {**_shipped(), **_added(libraries)}
-    if name is None:
-        wanted = "" if search is None else _plain(search)
-        matching = {
-            library: [rule for rule in found if wanted in _searched(rule)]
-            for library, found in known.items()
-        }
-        lists = [_listed(library, found) for library, found in matching.items() if found]
-        if search is not None and not lists:
-            raise AZeeError(Diagnostic("unknown-rule", f"no rule speaks of `{search}`", None))
-        click.echo("\n\n".join(lists))
-        return
-    if search is not None:
+    if name is not None and search is not None:
         raise click.UsageError("NAME shows one rule; --search lists some")
-    plain = name.removeprefix(":")
-    chosen = [rule for found in known.values() for rule in found if rule.name == plain]
-    if not chosen:
-        raise AZeeError(_unknown(plain, [r.name for found in known.values() for r in found]))
-    click.echo("\n\n".join("\n".join(_shown(rule, libraries)) for rule in chosen))
+    added, mistakes = _added(libraries)
+    known = {**_shipped(), **added}
+    chosen = _chosen(known, name, search)
+    if not any(chosen.values()):
+        mistakes = [_none(known, name, search), *mistakes]
+    if form == "json":
+        found = [_as_json(rule) for rules in chosen.values() for rule in rules]
+        show_json({"diagnostics": as_json(mistakes), "rules": found})
+    else:
+        shown = {library: rules for library, rules in chosen.items() if rules}
+        if name is None:
+            texts = [_listed(library, rules) for library, rules in shown.items()]
+        else:
+            texts = [
+                "\n".join(_shown(rule, libraries)) for rules in shown.values() for rule in rules
+            ]
+        if texts:
+            click.echo("\n\n".join(texts))
+        show(mistakes)
+    return FAULT if mistakes else DONE
+
+
+def _chosen(
+    known: Mapping[str, list[Rule]], name: str | None, search: str | None
+) -> dict[str, list[Rule]]:
+    """Return the rules of a name, or those that speak of something, by library."""
+    plain = None if name is None else name.removeprefix(":")
+    wanted = "" if search is None else _plain(search)
+    return {
+        library: [
+            rule
+            for rule in found
+            if (wanted in _searched(rule) if plain is None else rule.name == plain)
+        ]
+        for library, found in known.items()
+    }
+
+
+def _none(known: Mapping[str, list[Rule]], name: str | None, search: str | None) -> Diagnostic:
+    """Say that nothing was found."""
+    if name is None:
+        return Diagnostic("unknown-rule", f"no rule speaks of `{search}`", None)
+    return _unknown(name.removeprefix(":"), [r.name for found in known.values() for r in found])
 
 
 def _shipped() -> dict[str, list[Rule]]:
@@ -64,22 +96,36 @@ def _shipped() -> dict[str, list[Rule]]:
     return {library: _by_name(shipped_library(library).namespace) for library in shipped_names()}
 
 
-def _added(folders: Sequence[Path]) -> dict[str, list[Rule]]:
-    """Return the rules of the libraries in some folders. Raises: AZeeError: one has a mistake."""
+def _added(folders: Sequence[Path]) -> tuple[dict[str, list[Rule]], list[Diagnostic]]:
+    """Return the rules without mistakes of the libraries in some folders, and all mistakes."""
     from azee.lang.library import names_in
     from azee.lang.program import load
     from azee_grammar.source import Source
 
-    out = {}
+    out: dict[str, list[Rule]] = {}
+    mistakes: dict[tuple[str, str, Span | None], Diagnostic] = {}
     for folder in folders:
-        for library in names_in(folder):
+        try:
+            names = names_in(folder)
+        except OSError as problem:
+            reason = (problem.strerror or "it cannot be listed").lower()
+            message = f"cannot read the folder `{folder}`: {reason}"
+            mistakes[message, "", None] = Diagnostic("cannot-read", message, None)
+            continue
+        for library in names:
             program = load(Source("<none>", f"use '{library}\n"), [folder])
-            if mistakes := [d for d in program.check() if d.severity is Severity.ERROR]:
-                raise AZeeError(*mistakes)
+            for found in program.check():
+                if found.severity is Severity.ERROR:
+                    mistakes.setdefault((found.code, found.message, found.span), found)
             for used in program.librarian.libraries:
                 if used.namespace.name == library:
-                    out[library] = _by_name(used.namespace)
-    return out
+                    out[library] = [rule for rule in _by_name(used.namespace) if _is_sound(rule)]
+    return out, list(mistakes.values())
+
+
+def _is_sound(rule: Rule) -> bool:
+    """Whether a rule that was resolved has a body without mistakes."""
+    return rule.definition.body is not None and not rule.diagnostics
 
 
 def _by_name(namespace: Namespace) -> list[Rule]:
@@ -117,6 +163,26 @@ def _shown(rule: Rule, libraries: Sequence[Path]) -> Iterator[str]:
             default = f"by default {' '.join(parameter.default.span.text.split())}"
         yield from _field("" if i else "arguments", f"'{parameter.name}  {default}")
     yield from _field("example", example_of(rule, libraries))
+
+
+def _as_json(rule: Rule) -> dict[str, Any]:
+    """Return a rule as docs/formats.md describes it."""
+    return {
+        "name": rule.name,
+        "library": rule.library,
+        "meaning": rule.entry("meaning"),
+        "source": rule.entry("source"),
+        "arguments": [
+            {
+                "name": parameter.name,
+                "mandatory": parameter.default is None,
+                "default": None
+                if parameter.default is None
+                else " ".join(parameter.default.span.text.split()),
+            }
+            for parameter in rule.defaults
+        ],
+    }
 
 
 def _field(name: str, text: str) -> Sequence[str]:

@@ -9,7 +9,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-
 _SHOWN = 40
 """Characters of a name that the hidden file repeats: a name as long as any may be stays legal."""
 

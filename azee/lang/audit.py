@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 
 from azee.lang.conflict import orient_conflict
 from azee.score.interval import Interval
@@ -48,22 +49,28 @@ def _constraints(leaf: Leaf) -> tuple[Constraint, ...]:
 def _transpath_ends(
     found: list[Leaf], dominant: Side, where: Callable[[Constraint], Span]
 ) -> Iterator[Diagnostic]:
-    """Find the blocks at both ends of a controlled movement."""
-    placed: dict[str, list[Interval]] = {}
+    """Find the blocks at both ends of a controlled movement.
+
+    Of the blocks that place a site, the one that starts first (of those, that ends first) and the
+    one that ends last (of those, that starts last) show whether there is any before or after.
+    """
+    first: dict[str, tuple[Fraction, Fraction]] = {}
+    last: dict[str, tuple[Fraction, Fraction]] = {}
     moved: list[tuple[Transpath, Interval]] = []
     for leaf in found:
+        start, end = leaf.interval.start, leaf.interval.end
         for constraint in _constraints(leaf):
             if isinstance(constraint, Place):
                 key = constraint.site.key(dominant)
-                placed.setdefault(key, []).append(leaf.interval)
+                first[key] = min(first.get(key, (start, end)), (start, end))
+                last[key] = max(last.get(key, (end, start)), (end, start))
             elif isinstance(constraint, Transpath):
                 moved.append((constraint, leaf.interval))
     for constraint, interval in moved:
-        places = placed.get(constraint.site.key(dominant), [])
-        before = any(p.start < interval.start for p in places)
-        before = before or any(p.start <= interval.start and p.end < interval.end for p in places)
-        after = any(p.end > interval.end for p in places)
-        after = after or any(p.end >= interval.end and p.start > interval.start for p in places)
+        key = constraint.site.key(dominant)
+        start, end = interval.start, interval.end
+        before = key in first and first[key] < (start, end)
+        after = key in last and last[key] > (end, start)
         missing = [word for word, there in (("before", before), ("after", after)) if not there]
         if missing:
             site = constraint.site

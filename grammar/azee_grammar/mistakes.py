@@ -337,6 +337,20 @@ def more_than_one(span: Span) -> Diagnostic:
     )
 
 
+def no_expression(word: Span, name: str) -> Diagnostic:
+    """Report a definition or `use`, with what it names, where an expression is expected."""
+    if word.text.startswith("use"):
+        message = "`use` is no expression: it brings a library into the scope of a text"
+        line = f"use {name}" if name.startswith("'") else f"use '{name or 'lsf'}"
+        hint = f"write `{line}` in a file, and give the file beside the expression"
+    else:
+        message = "`def` is no expression: it defines a rule in a text"
+        hint = "write the definition in a file, and give the file beside the expression"
+        if name:
+            hint += f" `:{name}`"
+    return Diagnostic("syntax", message, word, help=hint)
+
+
 def too_many(span: Span, most: int) -> Diagnostic:
     """Report a text that seems not to be AZee."""
     return Diagnostic(

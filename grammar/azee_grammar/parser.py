@@ -14,6 +14,7 @@ from azee_grammar.mistakes import (
     Mistakes,
     hole_outside_template,
     more_than_one,
+    no_expression,
     nothing_here,
     too_many,
 )
@@ -65,6 +66,10 @@ def parse_expression(
     layouts = list(LayoutReader(source, indented=True).items())
     if not layouts:
         return None, (nothing_here(Span(source, 0, 0)),)
+    first = layouts[0].tokens
+    if first and first[0].kind in ("DEF", "USE"):
+        named = Span(source, first[1].start, first[1].end).text.strip() if first[1:] else ""
+        return None, (no_expression(Span(source, first[0].start, first[0].end), named),)
     expression, diagnostics = _read(source, layouts[0], "standalone", template=template)
     if len(layouts) > 1:
         extra = layouts[1].tokens[0]

@@ -266,3 +266,44 @@ def test_an_interrupt_has_its_own_code(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr("azee.cli.score.Text.read", interrupted)
     assert run(["score", "-e", ":arbre"]) == 130
+
+
+LONG = "n" * 300
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code"),
+    [
+        (["check", LONG], 1),
+        (["check", f"{LONG}/a.azee"], 1),
+        (["fmt", LONG], 1),
+        (["score", LONG], 1),
+        (["find", ":bien", LONG], 1),
+        (["check", "-e", ":bien", "--library", LONG], 2),
+        (["check", "-e", ":bien", "--rig", LONG], 2),
+        (["rules", "--library", LONG], 2),
+        (["score", "-e", ":bien", "-o", f"{LONG}.svg"], 1),
+        (["compile", "-e", ":bien", "-o", f"{LONG}.glb"], 1),
+        (["compile", "-e", ":bien", "-o", "a.glb", "--report", f"{LONG}.json"], 1),
+        (["render", "-e", ":bien", "-o", f"{LONG}.png"], 1),
+        (["render", f"{LONG}.npz", "-o", "a.png"], 1),
+        (["clip", "convert", f"{LONG}.bvh", "-o", "a.npz"], 1),
+        (["retarget", f"{LONG}.bvh", "-o", "a.glb"], 1),
+    ],
+)
+def test_a_name_that_no_system_takes_gets_one_message(
+    arguments: list[str], code: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(arguments) == code
+    told = capsys.readouterr().err
+    assert len(re.findall("(?m)^(?:error|Error)", told)) == 1
+    assert LONG in told
+    assert _files() == []
+
+
+def test_a_name_as_long_as_any_may_be_is_written() -> None:
+    name = "n" * 250
+    Path(f"{name}.azee").write_text(":bien()\n", encoding="utf-8")
+    assert run(["fmt", "--quiet", f"{name}.azee"]) == 0
+    assert run(["score", f"{name}.azee", "-o", f"{name}.svg"]) == 0
+    assert _files() == [f"{name}.azee", f"{name}.svg"]

@@ -82,6 +82,27 @@ def test_an_expression_sees_the_rules_of_a_file(capsys: pytest.CaptureFixture[st
     assert capsys.readouterr().err.count("error[") == 2
 
 
+@pytest.mark.parametrize(
+    ("text", "word", "remedy"),
+    [
+        ("def tea", "def", "`:tea`"),
+        ("def tea\n    :bien\n:tea", "def", "`:tea`"),
+        ("use 'lsf\n:bien", "use", "`use 'lsf`"),
+        ("use lsf", "use", "`use 'lsf`"),
+        ("use", "use", "`use 'lsf`"),
+    ],
+)
+def test_a_definition_is_no_expression(
+    text: str, word: str, remedy: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["check", "-e", text]) == 1
+    told = capsys.readouterr().err
+    assert told.startswith(f"error[syntax]: `{word}` is no expression")
+    assert told.count("error[") == 1
+    assert remedy in told
+    assert "give the file" in told
+
+
 def test_an_expression_goes_with_one_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["check", "fine.azee", "faulty.azee", "-e", ":bonjour"]) == 2
     assert "-e sees the rules of one FILE" in capsys.readouterr().err

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import os
 from pathlib import Path
 
 import pytest
@@ -87,3 +89,48 @@ def test_a_folder_adds_its_libraries(tmp_path: Path, capsys: pytest.CaptureFixtu
     (tmp_path / "mine" / "drinks.azee").write_text("def tea\n    :bein\n", encoding="utf-8")
     assert run(["rules", "--library", str(tmp_path)]) == 1
     assert "unknown-rule" in capsys.readouterr().err
+
+
+def test_a_broken_library_does_not_hide_the_others(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    texts = {"bad/b.azee": "def (\n", "good/g.azee": "def fine\n    :bien\n"}
+    texts |= {"half/h.azee": "def right\n    :bien\ndef wrong\n    :bein\n"}
+    for name, text in texts.items():
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    os.mkfifo(tmp_path / "good" / "pipe.azee")
+    os.mkfifo(tmp_path / "pipe.azee")
+    (tmp_path / "out.azee").symlink_to("/etc/hosts")
+    assert run(["rules", "--library", str(tmp_path)]) == 1
+    captured = capsys.readouterr()
+    assert "good\n  fine\n" in captured.out
+    assert "half\n  right" in captured.out
+    assert "info-about" in captured.out
+    for absent in ("wrong", "out", "pipe"):
+        assert f"\n  {absent}" not in captured.out
+        assert f"\n{absent}\n" not in captured.out
+    assert captured.err.count("error[") == 3
+    for code in ("syntax", "unknown-rule", "cannot-read"):
+        assert f"error[{code}]" in captured.err
+    assert run(["rules", "fine", "--library", str(tmp_path)]) == 1
+    assert capsys.readouterr().out.startswith(":fine\n")
+    assert run(["rules", "--format", "json", "--library", str(tmp_path)]) == 1
+    told = json.loads(capsys.readouterr().out)
+    assert len(told["diagnostics"]) == 3
+    assert {"fine", "right"} <= {rule["name"] for rule in told["rules"]}
+
+
+def test_rules_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["rules", "--format", "json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["diagnostics"] == []
+    assert {rule["name"] for rule in told["rules"]} == {rule.name for rule in SHIPPED}
+    assert run(["rules", "info-about", "--format", "json"]) == 0
+    (rule,) = json.loads(capsys.readouterr().out)["rules"]
+    assert rule["library"] == "core"
+    assert rule["arguments"][0] == {"name": "topic", "mandatory": True, "default": None}
+    assert run(["rules", "no-such-rule", "--format", "json"]) == 1
+    told = json.loads(capsys.readouterr().out)
+    assert told["rules"] == []
+    assert [d["code"] for d in told["diagnostics"]] == ["unknown-rule"]

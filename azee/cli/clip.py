@@ -11,7 +11,7 @@ import click
 
 from azee.cli.body import load_body
 from azee.cli.console import news
-from azee.cli.number import Number
+from azee.cli.number import Number, Seconds
 from azee.cli.outputs import check_outputs, size_of, with_suffix
 from azee.formats import CLIP_WRITERS
 from azee_grammar.diagnostic import AZeeError, Diagnostic
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-SECONDS = Number(min=0)
+SECONDS = Seconds(min=0)
 
 
 @click.group("clip", short_help="Cut, join, mirror and retime clips.")

@@ -12,7 +12,7 @@ from click.core import ParameterSource
 
 from azee.cli.body import load_body
 from azee.cli.console import bar, news, working
-from azee.cli.number import Number
+from azee.cli.number import Number, Seconds
 from azee.cli.outputs import check_outputs, size_of, with_suffix
 from azee.cli.text import Text, dominant_option, text_options
 from azee.clips import CLIP_SUFFIXES
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 OF_TEXTS = ("expression", "utterance", "libraries", "dominant", "no_life")
 """Options that say how a text is read and solved."""
 _SIZE = re.compile(r"(\d{1,5})\s*[x×]\s*(\d{1,5})", re.ASCII)
-_SECONDS = re.compile(r"(\d+(?:\.\d+)?)\s*s?", re.ASCII)
 
 
 def _size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
@@ -37,13 +36,6 @@ def _size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
     if not all(16 <= side <= 8192 for side in size):
         raise click.BadParameter(f"`{value}` is no size such as 1280x720, from 16 to 8192 pixels")
     return size
-
-
-def _moments(_: click.Context, __: click.Parameter, values: Sequence[str]) -> tuple[float, ...]:
-    found = [_SECONDS.fullmatch(value) for value in values]
-    if bad := [value for value, match in zip(values, found, strict=True) if match is None]:
-        raise click.BadParameter(f"`{bad[0]}` is no time such as 1.2s")
-    return tuple(float(match[1]) for match in found if match)
 
 
 @click.command(short_help="Pictures and films, without a display.")
@@ -82,7 +74,7 @@ def _moments(_: click.Context, __: click.Parameter, values: Sequence[str]) -> tu
     "moments",
     multiple=True,
     metavar="TIME",
-    callback=_moments,
+    type=Seconds(min=0),
     help="The time of a picture, such as 1.2s; several stand side by side.",
 )
 @click.option(

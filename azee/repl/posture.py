@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import io
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 SIZE = (720, 900)
 WIDEST = 72
 """Columns of a picture in the terminal. A row of text shows two of its rows."""
+
+
+_SECONDS = re.compile(r"(\d+\.?\d*|\.\d+)s?", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +41,9 @@ class Wish:
         path = time_s = None
         if words and words[0].lower().endswith(".png"):
             path = Path(words.pop(0)).expanduser()
-        if words and words[0].replace(".", "", 1).isdecimal():
-            time_s = float(words.pop(0))
+        if words and (written := _SECONDS.fullmatch(words[0])):
+            time_s = float(written[1])
+            words.pop(0)
         view = " ".join(words) or "front"
         if view not in VIEWS:
             raise Refusal(f"there is no view `{view}`", f"the views are {', '.join(VIEWS)}")

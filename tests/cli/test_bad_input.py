@@ -10,6 +10,7 @@ import pytest
 from programs import Python
 
 from azee.cli.main import run
+from azee.cli.number import Seconds
 
 SYNC_CYCLE = """\
 sync
@@ -307,3 +308,17 @@ def test_a_name_as_long_as_any_may_be_is_written() -> None:
     assert run(["fmt", "--quiet", f"{name}.azee"]) == 0
     assert run(["score", f"{name}.azee", "-o", f"{name}.svg"]) == 0
     assert _files() == [f"{name}.azee", f"{name}.svg"]
+
+
+@pytest.mark.parametrize("text", [".6s", "0.6", ".6", "0.6 s", "6e-1s"])
+def test_a_time_is_written_with_its_unit_or_without(text: str) -> None:
+    assert Seconds(min=0).convert(text, None, None) == 0.6
+
+
+@pytest.mark.parametrize("text", ["-1s", "later", "1.2m", "s", "", "nan", "1.2.3", "1,2"])
+def test_what_is_no_time_is_told(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["render", "-e", ":bien", "-o", "a.png", "--at", text]) == 2
+    told = capsys.readouterr().err
+    assert "'--at'" in told
+    assert "1.2s" in told or "range" in told
+    assert run(["clip", "cut", "a.npz", "-o", "b.npz", "--from", text]) == 2

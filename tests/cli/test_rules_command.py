@@ -6,7 +6,9 @@ import json
 import os
 from pathlib import Path
 
+import jsonschema
 import pytest
+from formats import schema
 
 from azee.cli.main import run
 from azee.lang.library import shipped_library
@@ -124,6 +126,7 @@ def test_a_broken_library_does_not_hide_the_others(
 def test_rules_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["rules", "--format", "json"]) == 0
     told = json.loads(capsys.readouterr().out)
+    jsonschema.validate(told, schema("rules"))
     assert told["diagnostics"] == []
     assert {rule["name"] for rule in told["rules"]} == {rule.name for rule in SHIPPED}
     assert run(["rules", "info-about", "--format", "json"]) == 0

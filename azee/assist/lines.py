@@ -15,6 +15,7 @@ from azee_grammar.words import WordReader
 
 _LINE = re.compile(r"([^\r\n]*)(?:\r\n|\r|\n|\Z)")
 _PREFIX = re.compile(r"\ufeff?(\s*)")
+_NEW = re.compile(r"(?:\A\ufeff?|(?<=[\r\n]))(?:def|use)(?=\s|\Z)")
 _DEF = re.compile(r"def(?=\s|\Z)")
 
 
@@ -37,13 +38,42 @@ class Lines:
     comments: tuple[tuple[int, int], ...]
 
 
-def read_lines(text: str) -> Lines:
-    """Read a text; mistakes are ignored, since the parser reports them."""
+def item_around(text: str, offset: int) -> tuple[int, int]:
+    """Return where the lines around an offset begin and end that depend on each other.
+
+    A `def` or `use` at the margin begins something new, whatever stands before it.
+    """
+    start, end = 0, len(text)
+    for found in _NEW.finditer(text):
+        if found.start() > offset:
+            end = found.start()
+            break
+        start = found.start()
+    return start, end
+
+
+def defined_names(text: str) -> tuple[str, ...]:
+    """Return the names of the rules that a text defines, in order."""
+    words = WordReader(Source("", text), lambda _: None, [])
+    names = []
+    for found in _NEW.finditer(text):
+        first = found.end() - 3
+        if text.startswith("def", first):
+            line = _LINE.match(text, first)
+            assert line
+            tokens = words.definition(first, line.end(1))
+            names += [token.text for token in tokens if token.kind == "NAME"]
+    return tuple(names)
+
+
+def read_lines(text: str, start: int = 0, stop: int | None = None) -> Lines:
+    """Read a text, or some of its lines; mistakes are ignored, since the parser reports them."""
     comments: list[tuple[int, int]] = []
     words = WordReader(Source("", text), lambda _: None, comments)
     found: list[Line] = []
-    at = 0
-    while at < len(text) and words.left >= 0:
+    at = start
+    stop = len(text) if stop is None else stop
+    while at < stop and words.left >= 0:
         line = _LINE.match(text, at)
         assert line
         end = line.end(1)

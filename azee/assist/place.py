@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from azee.assist.frame import Frame, FrameReader, Operand
-from azee.assist.lines import Line, read_lines
+from azee.assist.lines import Line, defined_names, item_around, read_lines
 from azee_grammar.token import Token
 
 _BLANKS = re.compile(r"[^\S\r\n]*")
@@ -33,10 +33,15 @@ class Place:
     commas: int
     pending: str | None
     """In a call, the name of the argument whose value is being written."""
-    defined: tuple[str, ...]
-    """Names of the rules that the text defines."""
     silent: bool
     """Whether the offset is in a comment or a text literal, where words have no meaning."""
+    text: str
+    """The whole text."""
+
+    @property
+    def defined(self) -> tuple[str, ...]:
+        """Names of the rules that the text defines."""
+        return defined_names(self.text)
 
     @property
     def before(self) -> list[Operand]:
@@ -65,7 +70,7 @@ def place(text: str, offset: int) -> Place:
 class _Finder:
     def __init__(self, text: str, offset: int) -> None:
         self._text, self._offset = text, offset
-        self._read = read_lines(text)
+        self._read = read_lines(text, *item_around(text, offset))
         self._token = next(filter(self._touches, self._words()), None)
         self._start = self._token.start if self._token else offset
         self._reader = FrameReader(text)
@@ -91,10 +96,9 @@ class _Finder:
         else:
             silent = any(start < self._offset <= end for start, end in self._read.comments)
         end = self._token.end if self._token else self._offset
-        names = tuple(t.text for t in self._words() if t.kind == "NAME")
         return Place(
             self._start, self._offset, end, word, self._token,
-            frame, number, commas, pending, names, silent,
+            frame, number, commas, pending, silent, self._text,
         )  # fmt: skip
 
     def _words(self) -> Iterator[Token]:

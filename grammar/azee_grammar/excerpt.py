@@ -68,6 +68,10 @@ def _cells(text: str) -> list[tuple[str, int]]:
     cells: list[tuple[str, int]] = []
     column = 0
     for c in text:
+        if " " <= c <= "~":  # most characters, and a text may have thousands of mistakes
+            cells.append((c, 1))
+            column += 1
+            continue
         if c == "\t":
             width = TAB_STOP - column % TAB_STOP
             shown = " " * width

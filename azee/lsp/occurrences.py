@@ -28,7 +28,7 @@ from azee_grammar.syntax import (
     Utterance,
 )
 
-_BLOCK_OF_REF = re.compile(r"([^:/]+)(?=:|$)")
+_BLOCK_OF_REF = re.compile(r"([^:/]+)(?=[:/]|$)")
 
 
 class What(Enum):

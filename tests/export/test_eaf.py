@@ -88,6 +88,11 @@ def test_tracks_are_tiers_by_part_of_the_body(score: Group, tmp_path: Path) -> N
     assert found["track head"] == [(0, 1000, "Z › a"), (1000, 2000, "Z › b")]
     assert found["track head 2"] == [(500, 501, "Z › c")]
     assert found["track right arm"] == [(0, 3000, "Z › d")]
+    write_eaf(score, tmp_path / "late.eaf", rows, lead_s=0.5)  # as in a film of the whole clip
+    late = read(tmp_path / "late.eaf")
+    assert late["track head"] == [(500, 1500, "Z › a"), (1500, 2500, "Z › b")]
+    assert late["track head 2"] == [(1000, 1001, "Z › c")]
+    assert late["track right arm"] == [(500, 3500, "Z › d")]
 
 
 @given(SCORES)

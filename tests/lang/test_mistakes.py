@@ -454,3 +454,18 @@ def test_steps_are_counted_and_limited() -> None:
     assert program(TRIPLING).check() == ()
     limited = program(TRIPLING, limits=Limits(steps=100))
     assert [p.code for p in limited.check()] == ["step-limit"]
+
+
+def test_each_ref_of_a_sync_rule_that_names_no_block_is_reported() -> None:
+    found = program("sync 'A (blank 1) 'B (blank 1) 'start/end 'X:start 'Y:end").check()
+    assert [(d.code, d.message[-3:], str(d.span)) for d in found] == [
+        ("unknown-block", "`X`", "text.azee:1:43"),
+        ("unknown-block", "`Y`", "text.azee:1:52"),
+    ]
+    found = program(
+        "sync 'A (blank 1) 'A (blank 2) 'start 'A:end 'A (blank 3) 'start 'A:end"
+    ).check()
+    assert [(d.code, str(d.span)) for d in found] == [
+        ("duplicate-block", "text.azee:1:19"),
+        ("duplicate-block", "text.azee:1:46"),
+    ]

@@ -29,7 +29,7 @@ def 😀
 SYNC = """\
 def s
     azop
-        'ref 'BASE:end
+        'ref 'BASE:start
         sync
             'BASE :chat
             'SIG :chat
@@ -44,6 +44,8 @@ def s
             'with 'SIG
             'BOTH (blank 1)
             'start/end 'SIG:start 'SIG:end
+            'MIX (blank 1)
+            'start/end ^ref 'SIG:end
 :s
 """
 NAMED = [
@@ -79,10 +81,11 @@ NAMED = [
         13,
         "A",
         {
-            "            'SIG :chat\n            'start 'BASE": "            'A :chat\n            'start 'BASE",
+            "'SIG :chat\n            'start 'BASE": "'A :chat\n            'start 'BASE",
             "'start/dur 'SIG:start .5": "'start/dur 'A:start .5",
             "'with 'SIG": "'with 'A",
             "'start/end 'SIG:start 'SIG:end": "'start/end 'A:start 'A:end",
+            "'start/end ^ref 'SIG:end": "'start/end ^ref 'A:end",
         },
     ),
     (

@@ -22,7 +22,7 @@ from azee.export.pictures.camerawork import cameras
 from azee.export.pictures.film import write_film
 from azee.export.pictures.scene import Look, Scene
 from azee.export.pictures.shots import SHOTS
-from azee.export.pictures.still import resting_times
+from azee.export.pictures.still import resting_times, write_sheet
 from azee.export.pictures.strip import Strip
 from azee.export.pictures.typeface import typeface
 from azee_rig.rig import Rig
@@ -172,6 +172,25 @@ def test_frames_are_the_same_however_many_threads_draw_them(waving: Clip, signer
 
 def test_the_body_rests_at_its_turning_points(waving: Clip) -> None:
     assert resting_times(waving) == pytest.approx([0.0, 0.7333, 1.5], abs=0.04)
+
+
+def test_a_sheet_has_no_picture_of_the_idle_ends(
+    waving: Clip, signer: Rig, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[float] = []
+
+    def noted(*given: Any) -> list[Image.Image]:
+        drawn.extend(given[3])
+        return [Image.new("RGB", (128, 160)) for _ in given[3]]
+
+    monkeypatch.setattr("azee.export.pictures.still._drawn", noted)
+    look = Look((200, 320), ("front",))
+    write_sheet(waving, signer, tmp_path / "s.png", look, [0.4, 0.7333])
+    assert drawn == pytest.approx([0.4, 0.5667, 0.7333], abs=0.02)
+    drawn.clear()
+    write_sheet(waving, signer, tmp_path / "s.png", look)  # a recording: nobody knows its keys
+    assert drawn[0] == 0
+    assert drawn[-1] == 1.5
 
 
 def test_one_command_writes_pictures_and_films_of_a_clip(

@@ -61,6 +61,10 @@ def picture(
     return render(vertices, rig.mesh, eye, size, transparent=transparent, samples=samples)
 
 
+CAPTION_PX, CAPTION_LEFT = 13, 6
+"""Height of the letters of a caption, and where it begins, in pixels."""
+
+
 def contact_sheet(
     pictures: Sequence[tuple[str, Image.Image]], columns: int | None = None
 ) -> Image.Image:
@@ -71,11 +75,11 @@ def contact_sheet(
     rows = -(-len(pictures) // columns)
     sheet = Image.new("RGB", (columns * width, rows * (height + band)), "white")
     draw = ImageDraw.Draw(sheet)
-    font = typeface(13)
+    font = typeface(CAPTION_PX)
     for i, (caption, image) in enumerate(pictures):
         x, y = i % columns * width, i // columns * (height + band)
         sheet.paste(image, (x, y))
-        draw.text((x + 6, y + height + 3), caption, fill=(40, 40, 40), font=font)
+        draw.text((x + CAPTION_LEFT, y + height + 3), caption, fill=(40, 40, 40), font=font)
     return sheet
 
 

@@ -14,9 +14,10 @@ from PIL import Image
 from azee.clip.clip import Clip
 from azee.clip.resample import sampled
 from azee.export.files import replace_file
-from azee.export.pictures.picture import contact_sheet
+from azee.export.pictures.picture import CAPTION_LEFT, CAPTION_PX, contact_sheet
 from azee.export.pictures.scene import Look, Scene
 from azee.export.pictures.storyboard import telling_frames
+from azee.export.pictures.typeface import fitted, typeface
 from azee_rig.rig import Rig
 
 MOST = 12
@@ -49,14 +50,13 @@ def write_sheet(
 ) -> None:
     """Draw the key postures, and the postures half-way between them, as rows of upright pictures.
 
-    The first and the last posture of the clip count as key postures.
+    The idle postures in which a score begins and ends, and the ways from and to them, are left out.
 
     Args: look: gives the cameras, and twice the height of a picture. key_times: of the key
-        postures; without any, the moments of least movement are taken.
+        postures; without any, both ends and the moments of least movement are taken.
     Raises: KeyError: no such camera. OSError.
     """
-    keys = resting_times(clip) if key_times is None else key_times
-    keys = [float(clip.times[0]), *keys, float(clip.times[-1])]
+    keys = key_times or resting_times(clip)
     chosen = [float(clip.times[i]) for i in telling_frames(clip, keys, MOST, SECOND_RAD)]
     between = [(a + b) / 2 for a, b in pairwise(chosen)]
     times = sorted({*chosen, *between})
@@ -68,8 +68,10 @@ def write_sheet(
         f"{'key' if time in chosen else 'then'} {time:.2f} s  {running(clip, time)}"
         for time in times
     ]
+    font, room = typeface(CAPTION_PX), size[0] - 2 * CAPTION_LEFT
     pictures = [
-        (caption[: size[0] // 8], image) for caption, image in zip(captions, images, strict=True)
+        (fitted(caption, font, room), image)
+        for caption, image in zip(captions, images, strict=True)
     ]
     _write(contact_sheet(pictures, min(len(pictures), max(1, WIDEST // size[0]))), path)
 

@@ -10,7 +10,7 @@ READY := $(ENV)/.ready
 PACKAGES := tests/node/node_modules/.package-lock.json
 TYPED := tests benchmarks examples
 
-.PHONY: families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
+.PHONY: mutants families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -59,6 +59,14 @@ fuzz-bvh: $(READY) ## look for recordings that break reading and retargeting, fo
 
 fuzz-bodies: $(READY) ## damage files of bodies at random and import them, for SECONDS=60
 	@$(RUN) tests/fuzz/search_bodies.py $(SECONDS)
+
+COUNT ?= 50
+SEED ?= 0
+WORKERS ?= 1
+SINCE ?= HEAD~1
+MODULES ?=
+mutants: $(READY) ## tell which of COUNT=50 single changes to MODULES=, or to what changed SINCE=HEAD~1, no test sees
+	@$(RUN) tests/mutants/mutation_test.py --count $(COUNT) --seed $(SEED) -n $(WORKERS) --since $(SINCE) $(MODULES)
 
 examples: $(READY) ## compile every example to every format but films, into out/examples
 	@$(RUN) examples/build.py --out out/examples

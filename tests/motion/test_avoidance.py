@@ -104,3 +104,16 @@ def test_a_movement_through_the_body_is_led_round_it_between_the_same_keys() -> 
 def test_a_limb_that_a_block_needs_gets_no_via_point() -> None:
     needed = (Interval(Fraction(0), Fraction(1)), frozenset(("arm_R",)))
     assert avoidance(needed).avoid_collisions(from_raised_to_behind()).via_points == ()
+
+
+def test_limbs_that_may_give_way_come_in_the_order_of_their_names() -> None:
+    """In a set they would come in another order in every process."""
+    movement, avoiding = from_raised_to_behind(), avoidance()
+    found = {}
+    for n in range(len(avoiding.overlaps.same_hand)):
+        free = avoiding._free_limbs(movement, 0.5, n)
+        assert all((start, end) == (0.0, 1.0) for _, start, end in free)
+        found[tuple(limb for limb, _, _ in free)] = avoiding.overlaps.names(n)
+    assert {("arm_L", "arm_R"), ("index_R", "middle_R"), ("index_L", "thumb_L")} <= {*found}
+    assert len(found) > 10
+    assert all([*limbs] == sorted(limbs) for limbs in found)

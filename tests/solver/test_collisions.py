@@ -82,6 +82,22 @@ def test_a_meant_contact_allows_what_the_capsules_stand_out() -> None:
     assert plain.reach[other] == placed.reach[other] == called.reach[other]
 
 
+def test_each_of_two_meant_contacts_allows_its_own_pairs_and_the_wider_one_what_both_touch() -> (
+    None
+):
+    plain = obstacles()
+    elbow = Place(Site("EL", S), SitePoint(Site("PA", W)), contact=True)
+    chest = Place(Site("PA", S), SitePoint(Site("ST")))
+    same = Place(Site("EL", S), SitePoint(Site("PA", W)))
+    alone = {c: plain.reach - obstacles(c).reach for c in (elbow, chest, same)}
+    at_elbow, at_chest = pair(plain, "upper_R", "hand_L"), pair(plain, "hand_R", "trunk_3")
+    assert alone[elbow][at_elbow] > alone[same][at_elbow] > 0.0 == alone[chest][at_elbow]
+    assert alone[chest][at_chest] > 0.0 == alone[elbow][at_chest]
+    for two in ((elbow, chest), (chest, elbow), (elbow, same), (same, elbow)):
+        both = plain.reach - obstacles(*two).reach
+        np.testing.assert_allclose(both, np.maximum(*(alone[c] for c in two)), atol=1e-12)
+
+
 def test_two_sites_at_one_place_are_meant_to_touch() -> None:
     point = FreePoint(0.0, -0.2, 0.3)
     met = obstacles(Place(Site("PA", S), point), Place(Site("PA", W), point))

@@ -80,6 +80,30 @@ def test_only_thumbs_give_way_and_only_where_something_is_in_their_way(signer: R
     assert all(signer.coordinates.names[v].startswith("thumb_R") for v in changed)
 
 
+def test_each_hand_is_fitted_by_itself_and_both_alike(signer: Rig) -> None:
+    index, names = signer.coordinates.index, signer.coordinates.names
+    asked = {
+        side: {
+            index[name]: angle
+            for name, angle in signer.skeletal_morphs[f"fist_close_{side}"].items()
+        }
+        for side in "LR"
+    }
+    found = {side: fitted(signer, asked[side]) for side in "LR"}
+    assert fitted(signer, asked["L"] | asked["R"]) == found["L"] | found["R"]
+    assert found["L"] != asked["L"]
+    left = {names[v].replace("_L_", "_R_"): angle for v, angle in found["L"].items()}
+    right = {names[v]: angle for v, angle in found["R"].items()}
+    assert left == pytest.approx(right, abs=1e-3)
+    # Fingers alone, with no thumb among what is asked, stay as they are.
+    fingers = {v: a for v, a in asked["R"].items() if not names[v].startswith("thumb")}
+    assert fitted(signer, fingers) == fingers
+    # A thumb moves as little as will do, and from where it lies then nothing moves it again.
+    again = fitted(signer, found["R"])
+    assert max(abs(again[v] - found["R"][v]) for v in again) < 0.1
+    assert max(abs(found["R"][v] - asked["R"][v]) for v in again) < 0.5
+
+
 def test_an_orientation_of_a_thumb_is_not_held_back_by_this(signer: Rig) -> None:
     thumb = along(BoneAxis.DIR, Bone("thumb", S, 3), Dir(Bone("thumb", S, 2)))
     assert run(signer, thumb).met

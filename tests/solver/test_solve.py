@@ -274,6 +274,32 @@ def test_a_limit_in_the_way_is_named() -> None:
     ]  # fmt: skip
 
 
+def test_near_the_end_of_all_bones_a_limit_stops_a_place_and_beyond_it_nothing_would_help() -> None:
+    """Straight bones would reach as far as their lengths say; limits stop them sooner."""
+    root = RIG.chain.frames(IDLE).positions[0]
+    site, chain = RIG.sites["PA_R"], RIG.chain
+    carriers, node = [site.node], site.node
+    while chain.parents[node] > 0:
+        node = int(chain.parents[node])
+        carriers.append(node)
+    length = np.linalg.norm(site.position) + sum(np.linalg.norm(chain.offsets[n]) for n in carriers)
+    aside, up = -0.18, 0.45
+
+    def forward(share: float) -> WorldPoint:
+        """A point in front at a share of the straight body's length from its root."""
+        z = math.sqrt((share * length) ** 2 - aside**2 - up**2)
+        return WorldPoint(aside, float(root[1]) + up, float(root[2]) + z)
+
+    for share in (0.905, 0.915, 0.925):
+        report = run(Place(Site("PA", S), forward(share)))
+        assert reason(report).startswith("limit of back_1.flexion by ")
+    for share in (1.005, 1.05):
+        report = run(Place(Site("PA", S), forward(share)))
+        miss = 1000 * report.constraints[0].residual
+        assert reason(report).startswith("out of reach by ")
+        assert float(reason(report).split()[-2]) == pytest.approx(miss, abs=0.5)
+
+
 def test_a_morph_beyond_its_limit_is_named() -> None:
     report = run(Morph("index_hook", S, 1.2))
     assert reason(report) == "limit of index_R_2.flexion by 18.0°"

@@ -35,6 +35,8 @@ def test_a_reader_gets_rotations_that_give_the_positions(document: dict[str, Any
     offsets = np.array(document["skeleton"]["offsets"])
     rotations = np.array(document["rotations"])
     positions = np.array(document["positions"])
+    assert len(document["root_positions"]) == len(positions) > 1
+    assert len(document["skeleton"]["parents"]) == positions.shape[1] > 1
     for frame, root in enumerate(document["root_positions"]):
         world: list[tuple[Any, Any]] = []
         for joint, parent in enumerate(document["skeleton"]["parents"]):

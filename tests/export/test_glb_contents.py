@@ -61,6 +61,7 @@ def test_the_hierarchy_is_the_skeletons(small: GlbArrays) -> None:
 
 def test_every_vertex_hangs_on_its_joints(small: GlbArrays) -> None:
     mesh = SMALL.mesh
+    assert len([*_primitives(small)]) == len(mesh.parts) > 1
     for number, primitive in enumerate(_primitives(small)):
         attributes = primitive["attributes"]
         used = _used(mesh, number)

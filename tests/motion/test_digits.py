@@ -262,6 +262,7 @@ def test_a_clip_of_one_rig_keeps_its_angles_on_another(signer: Rig) -> None:
     q = np.tile(c.idle, (5, 1))
     q[:, columns] = random.uniform(c.lower[columns], c.upper[columns], (5, len(columns)))
     made = retarget(measure_clip(Clip(np.arange(5) / 30, q, (), np.zeros((5, 0))), signer), other)
+    assert sum(not c.names[v].endswith("roll") for v in columns) == 2 * 20
     for v in columns:
         name = c.names[v]
         if not name.endswith("roll"):  # whose limits are each body's own

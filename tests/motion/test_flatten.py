@@ -193,6 +193,7 @@ def test_closing_and_opening_share_a_keyframe_out(score: Score) -> None:
     def names(keyframe: Keyframe) -> list[int]:
         return sorted(r.rank for r in keyframe.closing + keyframe.opening)
 
+    assert flatten(score).keyframes
     for keyframe in flatten(score).keyframes:
         assert names(keyframe) == [r.rank for r in keyframe.requirements]
         assert all(r.interval.end == keyframe.time for r in keyframe.closing)

@@ -46,6 +46,7 @@ def test_there_is_one_coordinate_per_anatomical_degree_of_freedom(signer: Rig) -
 
 def test_both_sides_have_the_same_limits(signer: Rig) -> None:
     c = signer.coordinates
+    assert sum("_L" in name for name in c.index) == sum("_R" in name for name in c.index) > 25
     for name, i in c.index.items():
         if "_L" in name:
             j = c.index[name.replace("_L", "_R")]

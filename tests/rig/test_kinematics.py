@@ -13,6 +13,7 @@ from azee_rig.rig import Rig
 
 Floats = NDArray[np.float64]
 RIG = load_rig("signer")
+BONES = 44
 UP, FORWARD, LEFT = np.eye(3)[1], np.eye(3)[2], np.eye(3)[0]
 seeds = st.integers(0, 2**32 - 1)
 
@@ -63,6 +64,7 @@ def test_joints_of_the_body_are_where_the_chain_puts_them(seed: int) -> None:
     q = anywhere(seed)
     positions = RIG.joint_positions(RIG.pose(q))
     frames = RIG.chain.frames(q)
+    assert len(RIG.bones) == BONES
     for bone, nodes in RIG.bones.items():
         joint = next(
             j for j, n in enumerate(RIG.drive.node) if n >= nodes.origin_node and n <= nodes.node
@@ -85,6 +87,7 @@ def test_a_mirrored_posture_gives_the_mirrored_body(seed: int) -> None:
             target = name.replace("_L", "_?").replace("_R", "_L").replace("_?", "_R")
             mirrored[RIG.coordinates.index[target]] = -q[i]
     one, two = RIG.chain.frames(q), RIG.chain.frames(mirrored)
+    assert len(RIG.bones) == BONES
     for bone, nodes in RIG.bones.items():
         other = bone.replace("_L", "_?").replace("_R", "_L").replace("_?", "_R")
         there = RIG.bones[other]

@@ -206,6 +206,7 @@ print(len(kernels), "numba" in sys.modules)
 def test_a_kernel_names_all_sources_that_go_into_it(kernel: Kernel) -> None:
     """A change in one that it does not name would go unnoticed."""
     named = {*kernel._sources, "azee_rig.machine_code"}
+    assert kernel._files()
     for file in kernel._files():
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
             if isinstance(node, ast.ImportFrom) and node.module and node.module[:4] == "azee":

@@ -20,6 +20,7 @@ def test_every_facial_morph_is_seen(signer: Rig) -> None:
     inside = {"teeth", "eyes", "lashes"}
     hidden = [p for p in mesh.parts if p.name in inside]
     covered = {int(v) for p in hidden for v in mesh.triangles[p.start : p.stop].ravel()}
+    assert len(signer.face_morphs) >= 94
     for name, units in signer.face_morphs.items():
         moved = np.zeros((len(mesh.vertices), 3))
         for unit, weight in units.items():
@@ -63,7 +64,9 @@ def test_every_skeletal_morph_is_there(signer: Rig) -> None:
 
 def test_a_skeletal_morph_of_weight_one_stays_inside_the_limits(signer: Rig) -> None:
     c = signer.coordinates
+    assert len(signer.skeletal_morphs) > 20
     for name, moves in signer.skeletal_morphs.items():
+        assert moves, name
         for coordinate, angle in moves.items():
             i = c.index[coordinate]
             assert c.lower[i] <= angle <= c.upper[i], (name, coordinate)

@@ -72,6 +72,7 @@ def test_skin_of_another_bone_is_found_out(signer: Rig) -> None:
 
 def test_left_and_right_mirror_each_other(signer: Rig) -> None:
     q = signer.coordinates.bind
+    assert len(signer.sites) == 292
     for name, site in signer.sites.items():
         other = other_side(name)
         (a, n), (b, m) = place(signer, q, name), place(signer, q, other)

@@ -52,6 +52,8 @@ def test_depths_and_their_slopes(body: str, signer: Rig) -> None:
     o, R = at.positions[:, capsules.node], at.rotations[:, capsules.node]
     a, b = (o + (R @ ends[..., None])[..., 0] for ends in (capsules.a, capsules.b))
     i, j = capsules.pairs.T
+    assert len(q) > 1
+    assert len(chosen) > 5
     for t in range(len(q)):
         gap = segment_distance(a[t, i], b[t, i], a[t, j], b[t, j])
         np.testing.assert_allclose(depth[t], reach - gap, atol=1e-12)

@@ -144,6 +144,22 @@ def test_labels_and_keys_count_from_the_start_of_the_clip(tmp_path: Path) -> Non
         assert times[-1] <= clip.times[-1] - clip.times[0] + 1e-6
 
 
+@pytest.mark.parametrize("last", [0.4, 1.0])
+def test_what_only_sinks_or_only_rises_has_a_key_per_frame(last: float, tmp_path: Path) -> None:
+    """All else is at rest, so that nothing else in the same channel tells that it moves."""
+    rest = np.tile(np.r_[np.zeros(3), np.tile([1.0, 0.0, 0.0, 0.0], 6)], (5, 1))
+    weights = np.linspace(0.7, last, 5)[:, None]
+    clip = Clip(np.arange(5) / 25, rest, ("blink",), weights)
+    write_glb(clip, SMALL, tmp_path / "one.glb")
+    file = GlbArrays.read(tmp_path / "one.glb")
+    (told,) = file.document["animations"]
+    (channel,) = (c for c in told["channels"] if c["target"]["path"] == "weights")
+    sampler = told["samplers"][channel["sampler"]]
+    assert file.array(sampler["input"])[:, 0] == pytest.approx(np.arange(5) / 25)
+    found = file.array(sampler["output"]).reshape(5, -1)
+    assert found.max(axis=1) == pytest.approx(weights[:, 0])
+
+
 @pytest.mark.slow
 def test_assimp_reads_the_whole_body(assimp: str, signer: Rig, tmp_path: Path) -> None:
     path = tmp_path / "signer.glb"

@@ -299,6 +299,13 @@ def test_a_trill_swings_from_the_start_of_its_block() -> None:
     assert edge == pytest.approx([0.0, half, -half, 0.0], abs=1e-9)
 
 
+def test_a_trill_about_an_axis_of_no_length_turns_nothing() -> None:
+    nowhere = one(Trill(Bone("palm", S), Vec(0.0, 0.0, 0.0), 5.0, 0.1))
+    swing = oscillation(nowhere, rig().coordinates.idle, evaluator())
+    assert swing.turnable == 0.0
+    assert not swing.direction.any()
+
+
 @pytest.mark.parametrize("bone", ["palm", "f_arm", "head"])
 def test_a_trill_turns_its_bone_about_its_axis(bone: str) -> None:
     side = None if bone == "head" else S

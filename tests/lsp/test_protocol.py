@@ -266,7 +266,7 @@ def test_a_request_that_nobody_can_read_is_answered(tmp_path: Path) -> None:
 
     async def scene(one: Editor) -> None:
         assert await one.open("a.azee", ":chat\n") == []
-        item = {"textDocument": {"uri": one.uri("a.azee")}}
+        item: dict[str, object] = {"textDocument": {"uri": one.uri("a.azee")}}
         for method, parameters, reason in requests:
             with pytest.raises(JsonRpcException, match=reason):
                 await asyncio.wait_for(one.ask(method, item | parameters), SOON_S)

@@ -65,7 +65,7 @@ SEED ?= 0
 WORKERS ?= 1
 SINCE ?= HEAD~1
 MODULES ?=
-mutants: $(READY) ## tell which of COUNT=50 single changes to MODULES=, or to what changed SINCE=HEAD~1, no test sees
+mutants: $(READY) ## tell which single changes no test sees: COUNT=50 to MODULES=…, or to what changed SINCE=HEAD~1
 	@$(RUN) tests/mutants/mutation_test.py --count $(COUNT) --seed $(SEED) -n $(WORKERS) --since $(SINCE) $(MODULES)
 
 examples: $(READY) ## compile every example to every format but films, into out/examples

@@ -148,7 +148,11 @@ def _on_skin(
         deepest = depths[:, columns].max(axis=1)
         for run in _runs(deepest > NEAR_SKIN_M):
             worst = run[int(deepest[run].argmax())]
-            found = [p for p in mesh_penetration(rig, q[worst]) if {p.limb, p.body} == {*regions}]
+            found = [
+                p
+                for p in mesh_penetration(rig, q[worst])
+                if {_region(p.limb), _region(p.body)} == {*regions}
+            ]
             if not found or found[0].depth_m < LEAST_M:
                 continue
             pair = columns[int(depths[worst, columns].argmax())]
@@ -156,6 +160,11 @@ def _on_skin(
             intended = _is_intended(avoidance, pair, float(times_s[worst]))
             names = (found[0].limb, found[0].body)
             yield Penetration(*span, names, found[0].depth_m, "skin", intended)
+
+
+def _region(part: str) -> str:
+    """Return the region of a part of the skin: a digit belongs to its arm."""
+    return part if part in ("trunk", "head") else f"arm_{part[-1]}"
 
 
 def _between_fingers(

@@ -60,6 +60,18 @@ def search(
     return PenetrationSearch(rig(), Side.RIGHT, schedule, np.array(rows), np.array(times_s))()
 
 
+def test_fingers_in_the_head_belong_to_their_arm() -> None:
+    """The skin is told by its digit, the capsules by their arm."""
+    in_head = posture(
+        arm_R__rotation=20, arm_R__flexion=50, f_arm_R__flexion=140, arm_R__abduction=10
+    )
+    found = search([FREE, in_head, FREE], FREE_S)
+    assert found
+    assert {p.pair[1] for p in found} == {"head"}
+    assert all(p.pair[0].endswith("_R") and p.on == "skin" for p in found)
+    assert max(p.depth_m for p in found) > 0.005
+
+
 def part_of_the_way(share: float) -> Floats:
     return np.asarray(FREE + share * (IN_CHEST - FREE))
 

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import re
 from pathlib import Path
+from types import ModuleType
+
+from azee import animation
+from azee.motion.keys import plan
 
 ROOT = Path(__file__).parents[2]
 STEP = re.compile(r"^(\d+)\. .*\((`\w+`(?:, `\w+`)*)\)$", re.MULTILINE)
@@ -17,9 +22,9 @@ def steps() -> dict[int, list[str]]:
     return {int(number): re.findall(r"\w+", names) for number, names in STEP.findall(page)}
 
 
-def body_of(name: str, module: str) -> tuple[str, list[str]]:
+def body_of(name: str, module: ModuleType) -> tuple[str, list[str]]:
     """Source of a function, and what it calls, in the order of the text."""
-    source = (ROOT / module).read_text(encoding="utf-8")
+    source = inspect.getsource(module)
     (function,) = (
         node
         for node in ast.parse(source).body
@@ -37,8 +42,8 @@ def body_of(name: str, module: str) -> tuple[str, list[str]]:
 
 
 def test_the_code_takes_the_steps_of_the_page_in_its_order() -> None:
-    of_animate, calls_of_animate = body_of("animate", "azee/animation.py")
-    of_plan, calls_of_plan = body_of("plan", "azee/motion/keys/plan.py")
+    of_animate, calls_of_animate = body_of("animate", animation)
+    of_plan, calls_of_plan = body_of("plan", plan)
     documented = steps()
     assert [*documented] == [*range(1, 13)]
     assert NUMBER.findall(of_animate) == [("1", ""), ("2", ""), ("3", "10"), ("11", ""), ("12", "")]

@@ -29,7 +29,3 @@ class Solution:
     def missed(self) -> frozenset[int]:
         """Tasks that are not met."""
         return frozenset().union(*(r.missed() for r in self.results))
-
-    def unmet(self) -> frozenset[int]:
-        """Tasks that are not met and should be."""
-        return frozenset().union(*(r.unmet() for r in self.results))

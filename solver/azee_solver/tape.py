@@ -164,10 +164,6 @@ class Tape:
         self._folded.append(folded)
         return len(self.codes) - 1
 
-    def is_constant(self, index: int) -> bool:
-        """Whether nothing free moves an entry."""
-        return self._folded[index] is not None
-
     # Geometry ---------------------------------------------------------------------------------
 
     def vector(self, expr: Vector) -> int:

@@ -16,11 +16,16 @@ from numpy.typing import NDArray
 
 from azee.clip.clip import Clip
 from azee.motion.curves.movement import Movement
-from azee.motion.keys.plan import plan
+from azee.motion.keys.plan import Plan, plan
+from azee.motion.overlay.accents import layers as accent_layers
+from azee.motion.overlay.accents import shortfalls as accent_shortfalls
 from azee.motion.overlay.face import RAMP_S, face_weights
-from azee.motion.overlay.idle import AFTER_S, BEFORE_S, BLINK, blinks, breathing, swaying
+from azee.motion.overlay.idle import AFTER_S, BEFORE_S, BLINK, blinks
 from azee.motion.overlay.labels import labels
+from azee.motion.overlay.life import life as life_of
+from azee.motion.overlay.saturation import saturated
 from azee.motion.overlay.trill import add_trills, oscillation
+from azee.motion.projection.projection import Reference, inside, on_living_body, project
 from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.key_posture import PostureSolver, Search
 from azee.motion.tasks.key_selection import MODES, KeySelection, Mode
@@ -87,32 +92,48 @@ def animate(
     evaluator = evaluator_of(rig, dominant)
     selection = KeySelection(Limbs.of(rig.coordinates), mode)
     rate = Fraction(fps)
+    layered = not selection.flat
 
     # 1. Project the nested score on one time line.
     timeline = flatten(score)
 
     # 2. Bind every constraint to the body: a timed task says which limbs it moves and reads.
-    schedule = bind(timeline, rig, evaluator.binding, selection.limbs)
+    schedule = bind(timeline, rig, evaluator.binding, selection.limbs, layered=layered)
 
-    # 3 to 10. Solve key postures and join them to a movement.
+    # 3 to 9. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
     planned = plan(
         schedule, evaluator, selection, solver or _default_solver(rig, dominant), frames_inside
     )
 
-    # 11. Sample the movement at the clip's frames, and add trills, face, idle motion and lids.
+    # 10. Sample the movement at the clip's frames, and lay accents and life on it.
     times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)
-    q = planned.movement.sample(times)
-    q, trill_shortfalls = _with_trills(q, times, schedule, planned.movement, evaluator)
+    reference = _with_layers(planned, schedule, times, seed if life else None, layered=layered)
+
+    # 11. Draw it onto the constraints in force; in flat mode it stays as it is.
+    if layered:
+        planned = on_living_body(planned, reference, seed if life else None)
+        q = project(planned, reference, float(fps))
+    else:
+        q = np.clip(reference.q, rig.coordinates.lower, rig.coordinates.upper)
+    samples = inside(times, q, rig.chain.frames(q), score.duration)
+
+    # 12. Add trills, the face, blinks, and lids that follow the eyes.
+    seconds = np.array([float(time) for time in times])
+    shortfalls = accent_shortfalls(schedule.accents, reference.q, q, seconds, evaluator)
+    q, trill_shortfalls = _with_trills(q, seconds, schedule, evaluator)
     weights = face_weights(
-        schedule.facial_morphs, rig.face_morphs, tuple(rig.units), dominant, times
+        schedule.facial_morphs, rig.face_morphs, tuple(rig.units), dominant, seconds
     )
     if life:
-        q, weights = _with_idle_motion(q, weights, times, schedule, rig, seed)
-    weights = _with_lids(weights, q, rig)
+        weights = weights + blinks(
+            rig.face_morphs.get(BLINK, {}), tuple(rig.units), schedule.facial_morphs, seconds,
+            np.random.default_rng(seed),
+        )  # fmt: skip
+    weights = saturated(_with_lids(weights, q, rig), rig)
 
-    # 12. Make the clip, measure it and report.
-    clip = _clip(score, rig, times, q, weights, lead_s)
+    # 13. Make the clip, measure it and report.
+    clip = _clip(score, rig, seconds, q, weights, lead_s)
     excess, joint = limit_excess(q, rig.coordinates)
     report = MotionReport(
         rig=rig.name,
@@ -121,13 +142,20 @@ def animate(
         duration_s=float(clip.times[-1]),
         lead_s=lead_s,
         score_s=float(score.duration),
-        constraints=constraint_results(schedule, planned, trill_shortfalls, float(fps)),
+        measure_constraints=partial(
+            constraint_results,
+            schedule,
+            planned,
+            samples,
+            {**shortfalls, **trill_shortfalls},
+            float(fps),
+        ),
         max_excess_rad=excess,
         excess_joint=joint,
         postures=planned.postures,
         blocks=tuple(block_times(schedule.all, planned.monitor.early_ends)),
-        peaks=peaks(q, float(fps), rig.coordinates.names, lead_s),
-        measure_penetration=PenetrationSearch(rig, dominant, schedule, clip.coordinates, times),
+        measure_peaks=partial(peaks, q, float(fps), rig.coordinates.names, lead_s),
+        measure_penetration=PenetrationSearch(rig, dominant, schedule, clip.coordinates, seconds),
         measure_likeness=partial(
             likeness,
             clip,
@@ -164,8 +192,8 @@ def _default_solver(rig: Rig, dominant: Side) -> PostureSolver:
 
 def _frame_times(
     score_s: Fraction, movement: Movement, schedule: TaskSchedule, rate: Fraction
-) -> tuple[Array, float]:
-    """Return all frames on the score's time line, (T,) seconds, and the lead before its zero.
+) -> tuple[tuple[Fraction, ...], float]:
+    """Return all frames on the score's time line, and the lead before its zero in seconds.
 
     The lead is a whole number of frames, so that the score starts on one.
     """
@@ -174,11 +202,29 @@ def _frame_times(
         last = max(last, float(score_s) + RAMP_S)
     before = math.ceil((BEFORE_S - first) * rate)
     after = math.ceil((last + AFTER_S) * rate)
-    return np.array([float(n / rate) for n in range(-before, after + 1)]), float(before / rate)
+    return tuple(n / rate for n in range(-before, after + 1)), float(before / rate)
+
+
+def _with_layers(
+    planned: Plan,
+    schedule: TaskSchedule,
+    times: Sequence[Fraction],
+    seed: int | None,
+    *,
+    layered: bool,
+) -> Reference:
+    """Sample the movement and add accents and, with a seed, life."""
+    evaluator = planned.monitor.evaluator
+    seconds = np.array([float(time) for time in times])
+    q = planned.movement.sample(seconds)
+    accents = accent_layers(schedule.accents, seconds, evaluator)
+    if seed is not None and layered:
+        q = q + life_of(evaluator.rig, q, seconds, seed)
+    return Reference(tuple(times), q + accents.offsets, accents.asked)
 
 
 def _with_trills(
-    q: Array, times: Array, schedule: TaskSchedule, movement: Movement, evaluator: Evaluator
+    q: Array, times: Array, schedule: TaskSchedule, evaluator: Evaluator
 ) -> tuple[Array, dict[int, float]]:
     """Add trills to coordinates (T, V); return also by how much they fall short, by rank.
 
@@ -187,23 +233,9 @@ def _with_trills(
     trills = []
     for task in schedule.trills:
         middle = float(task.interval.start + task.interval.end) / 2
-        posture = np.asarray(movement.sample(np.array([middle]))[0])
+        posture = q[int(np.abs(times - middle).argmin())]
         trills.append(oscillation(task, posture, evaluator))
     return add_trills(q, times, trills, evaluator.rig.coordinates)
-
-
-def _with_idle_motion(
-    q: Array, weights: Array, times: Array, schedule: TaskSchedule, rig: Rig, seed: int
-) -> tuple[Array, Array]:
-    """Add breathing, blinks and sway to coordinates (T, V) and face weights, inside the limits."""
-    rng = np.random.default_rng(seed)
-    coordinates, tasks = rig.coordinates, schedule.body_tasks
-    q = q + breathing(coordinates, tasks, times, rng)
-    q = np.clip(q, coordinates.lower, coordinates.upper)
-    closing = rig.face_morphs.get(BLINK, {})
-    weights = weights + blinks(closing, tuple(rig.units), schedule.facial_morphs, times, rng)
-    q = q + swaying(coordinates, tasks, times, rng)
-    return np.clip(q, coordinates.lower, coordinates.upper), weights
 
 
 def _with_lids(weights: Array, q: Array, rig: Rig) -> Array:

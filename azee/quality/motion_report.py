@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.keys.plan import Plan
-from azee.motion.keys.residual_monitor import TOLERANCE
+from azee.motion.keys.residual_monitor import TOLERANCE, MovementSamples
 from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
 from azee.quality.likeness import Likeness
 from azee.quality.measures import CoordinatePeaks, Penetration
 from azee_rig.coordinates import Coordinates
-from azee_solver.constraint import Morph, Trill
+from azee_solver.constraint import Morph, Rotate, Trill
 from azee_solver.notation import operator_text, subject_text, target_text
 
 if TYPE_CHECKING:
@@ -92,14 +92,24 @@ class MotionReport:
     duration_s: float
     lead_s: float
     score_s: float
-    constraints: tuple[ConstraintResult, ...]
+    measure_constraints: Callable[[], tuple[ConstraintResult, ...]]
     max_excess_rad: float
     excess_joint: str | None
     postures: tuple[KeyPosture, ...]
     blocks: tuple[Mapping[str, object], ...]
-    peaks: tuple[CoordinatePeaks, ...]
+    measure_peaks: Callable[[], tuple[CoordinatePeaks, ...]]
     measure_penetration: Callable[[], tuple[Penetration, ...]]
     measure_likeness: Callable[[], Likeness]
+
+    @cached_property
+    def constraints(self) -> tuple[ConstraintResult, ...]:
+        """Every constraint of the score with its residual; measured when first asked for."""
+        return self.measure_constraints()
+
+    @cached_property
+    def peaks(self) -> tuple[CoordinatePeaks, ...]:
+        """Largest speed, acceleration and jerk of the coordinates that move."""
+        return self.measure_peaks()
 
     @cached_property
     def clip_penetration(self) -> tuple[Penetration, ...]:
@@ -156,30 +166,37 @@ class MotionReport:
 
 
 def constraint_results(
-    schedule: TaskSchedule, plan: Plan, trill_shortfalls: Mapping[int, float], fps: float
+    schedule: TaskSchedule,
+    plan: Plan,
+    samples: MovementSamples,
+    shortfalls: Mapping[int, float],
+    fps: float,
 ) -> tuple[ConstraintResult, ...]:
-    """Measure every task at the clip's frames and at the keys inside its block.
+    """Measure every task at the clip's frames inside its block.
 
     Trills are left out of the postures that are measured: they swing about what others fix.
 
-    Args: trill_shortfalls: angles by which trills fall short, by rank. fps: of the clip.
+    Args: samples: the frames inside the score. shortfalls: angles by which accents and trills fall
+        short, by rank. fps: of the clip.
     """
     measured = {t.rank for t in plan.monitor.measured_tasks}
     out = []
     for task in schedule.all:
         if task.rank in measured:
-            out.append(_measured(task, plan))
+            out.append(_measured(task, plan, samples))
         elif isinstance(task.constraint, Trill):
-            out.append(_trill(task, task.constraint, trill_shortfalls.get(task.rank, 0.0), fps))
+            out.append(_trill(task, task.constraint, shortfalls.get(task.rank, 0.0), fps))
+        elif isinstance(task.constraint, Rotate):
+            out.append(_accent(task, shortfalls.get(task.rank, 0.0)))
         else:
             out.append(_face(task))
     return tuple(out)
 
 
-def _measured(task: TimedTask, plan: Plan) -> ConstraintResult:
+def _measured(task: TimedTask, plan: Plan, samples: MovementSamples) -> ConstraintResult:
     monitor = plan.monitor
-    rows = monitor.rows_inside(task, plan.samples.seconds)
-    values = monitor.residual(task, plan.samples.only(rows))
+    rows = monitor.rows_inside(task, samples.seconds)
+    values = monitor.residual(task, samples.only(rows))
     residual = float(np.max(values, initial=0.0))
     unit, tolerance = monitor.unit(task), monitor.tolerance(task)
     reason = None
@@ -219,6 +236,13 @@ def _trill(task: TimedTask, trill: Trill, shortfall: float, fps: float) -> Const
         shown = f"no {fps:g} frames a second can show {trill.frequency_hz:g} oscillations"
         return _result(task, trill.amplitude_rad, "rad", tolerance, shown)
     reason = None if shortfall <= tolerance else "the limits of its joints are in the way"
+    return _result(task, shortfall, "rad", tolerance, reason)
+
+
+def _accent(task: TimedTask, shortfall: float) -> ConstraintResult:
+    """Judge an accent by how far the bone is from the sum of all that turns it."""
+    tolerance = TOLERANCE["rad"]
+    reason = None if shortfall <= tolerance else "limits or other constraints leave it no room"
     return _result(task, shortfall, "rad", tolerance, reason)
 
 

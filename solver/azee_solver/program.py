@@ -92,6 +92,8 @@ class Program:
             the frames of all moving nodes, not only of those that the objective reads.
         """
         self.rows, codes, numbers = _used(tape, rows)
+        self.tape_numbers: Array = np.array(numbers).reshape(-1, 5)
+        self.row_weights = [row.weight for row in self.rows]
         self.layout = layout(
             rig,
             Structure(
@@ -192,6 +194,11 @@ class Program:
             else:
                 out[n] = abs(out[n] - row.distance_m)
         return out
+
+
+def used_entries(tape: Tape, rows: Sequence[Row]) -> Array:
+    """Return the numbers of the entries that residuals hang on, (m, 5), as a program has them."""
+    return np.array(_used(tape, rows)[2]).reshape(-1, 5)
 
 
 def _used(

@@ -207,7 +207,8 @@ class Tape:
     def point(self, expr: Point, phase: float = 0.0) -> int:
         """Entry of a point expression. Raises DegenerateError, BindingError.
 
-        A dynamic point on a curved path is taken where the posture at hand has it.
+        A dynamic point on a curved path goes with the straight one between the ends, from which it
+        is as far as in the posture at hand.
         """
         scale = self.evaluator.scale
         match expr:
@@ -227,11 +228,15 @@ class Tape:
                 return self.combine(
                     self.point(start, phase), 1.0 - phase, self.point(end, phase), phase
                 )
-            case Moving():
+            case Moving(_, start, end):
                 value = self.evaluator.point(expr, self.frames, phase)
                 if not np.all(np.isfinite(value)):
                     raise DegenerateError
-                return self.constant(value)
+                straight = Moving(Straight(), start, end)
+                aside = value - self.evaluator.point(straight, self.frames, phase)
+                return self.combine(
+                    self.point(start, phase), 1.0 - phase, self.point(end, phase), phase, aside
+                )
 
     def site(self, site: Site, distance: float = 0.0) -> int:
         """Entry of a site, or of the point so many metres outwards of it. Raises BindingError."""

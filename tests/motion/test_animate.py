@@ -141,10 +141,14 @@ def test_the_score_keeps_its_times() -> None:
     ]  # fmt: skip
 
 
+NEARLY_RAD = math.radians(0.2)
+"""Hands beside the trunk are drawn from it by so much."""
+
+
 def test_the_signer_stands_idle_before_and_after() -> None:
     clip = played(TWO_KEYS).clip
-    assert clip.coordinates[0] == pytest.approx(rig().coordinates.idle)
-    assert clip.coordinates[-1] == pytest.approx(rig().coordinates.idle)
+    assert clip.coordinates[0] == pytest.approx(rig().coordinates.idle, abs=NEARLY_RAD)
+    assert clip.coordinates[-1] == pytest.approx(rig().coordinates.idle, abs=NEARLY_RAD)
 
 
 def test_nothing_jumps() -> None:
@@ -261,7 +265,7 @@ def test_a_free_hand_goes_down_while_the_other_signs_on() -> None:
     )
     left = [i for i, n in enumerate(rig().coordinates.names) if n.startswith(("arm_L", "f_arm_L"))]
     late = animation.clip.coordinates[frame_at(animation, 2.0)]
-    assert late[left] == pytest.approx(rig().coordinates.idle[left], abs=1e-6)
+    assert late[left] == pytest.approx(rig().coordinates.idle[left], abs=NEARLY_RAD)
     both = animation.clip.coordinates[frame_at(animation, 0.5)]
     assert np.abs(both[left] - rig().coordinates.idle[left]).max() > 0.2
 
@@ -349,7 +353,7 @@ def test_a_look_turns_eyes_and_lids_and_leaves_the_arms_at_rest() -> None:
     arms = [i for i, n in enumerate(rig().coordinates.names) if n.startswith(("arm", "f_arm"))]
     idle = rig().coordinates.idle[arms]
     assert animation.clip.coordinates[:, arms] == pytest.approx(
-        np.broadcast_to(idle, (len(animation.clip.times), len(arms)))
+        np.broadcast_to(idle, (len(animation.clip.times), len(arms))), abs=NEARLY_RAD
     )
     middle = frame_at(animation, 0.5)
     wanted = {unit: 0.7 * share for unit, share in rig().face_morphs["AU1"].items()}
@@ -362,7 +366,7 @@ def test_a_look_turns_eyes_and_lids_and_leaves_the_arms_at_rest() -> None:
     assert any("eyeLook" in unit for unit in animation.clip.units)
 
 
-def test_a_neck_that_a_glance_has_bent_comes_back_though_the_chin_stays_up() -> None:
+def test_a_glance_is_over_though_the_chin_stays_up() -> None:
     chin = Rotate(Bone("head"), Vec(-1, 0, 0), math.radians(6))
     score = sync(
         block("GAZE", "0", ".2", LookAt(FreePoint(-0.5, 0.05, 0.5))),
@@ -371,10 +375,13 @@ def test_a_neck_that_a_glance_has_bent_comes_back_though_the_chin_stays_up() -> 
     )
     animation = played(score)
     assert animation.report.met, animation.report.constraints
-    neck = [i for i, n in enumerate(rig().coordinates.names) if n.startswith("neck")]
-    q = animation.clip.coordinates[:, neck]
-    assert np.abs(q[frame_at(animation, 0.2)]).max() > math.radians(10)
-    assert np.abs(q[frame_at(animation, 1.0)]).max() < math.radians(1)
+    index = rig().coordinates.index
+    turned = animation.clip.coordinates[:, [index["neck.axial"], index["head.axial"]]].sum(axis=1)
+    raised = animation.clip.coordinates[:, index["head.flexion"]]
+    assert abs(turned[frame_at(animation, 0.2)]) > math.radians(10)
+    assert abs(turned[frame_at(animation, 1.0)]) < math.radians(1)
+    for time in (0.2, 1.0, 1.9):
+        assert raised[frame_at(animation, time)] < -math.radians(3.5)
 
 
 def test_a_levelled_head_goes_straight_to_where_something_turns_it() -> None:
@@ -393,7 +400,7 @@ def test_left_handers_sign_with_the_left() -> None:
     assert left.report.met
     assert np.ptp(tip_track(left, "I_TIP_L"), axis=0).max() > 0.1
     other = [i for i, n in enumerate(rig().coordinates.names) if n.startswith(("arm_R", "index_R"))]
-    assert np.ptp(left.clip.coordinates[:, other], axis=0).max() == 0
+    assert np.ptp(left.clip.coordinates[:, other], axis=0).max() < math.radians(5)
 
 
 def test_the_same_score_gives_the_same_bytes() -> None:
@@ -401,15 +408,24 @@ def test_the_same_score_gives_the_same_bytes() -> None:
     assert again.coordinates.tobytes() == played(PATH).clip.coordinates.tobytes()
 
 
-def test_life_is_seeded_low_and_keeps_off_what_the_score_constrains() -> None:
+def test_life_is_seeded_never_still_and_keeps_what_the_score_asks() -> None:
     face = block("FACE", "0", "3", Morph("AU1", None, 0.7))
     score = sync(block("SIGN", "0", "3", at(TIP, 0, 0, 0)), face)
     lively = animate(score, rig(), seed=5)
     assert np.array_equal(lively.clip.coordinates, animate(score, rig(), seed=5).clip.coordinates)
-    inside = slice(frame_at(lively, 0.0), frame_at(lively, 3.0) + 1)
+    assert not np.array_equal(
+        lively.clip.coordinates, animate(score, rig(), seed=6).clip.coordinates
+    )
+    assert lively.report.met
     still = played(score)
-    assert np.array_equal(lively.clip.coordinates[inside], still.clip.coordinates[inside])
-    assert np.abs(lively.clip.coordinates - still.clip.coordinates).max() < math.radians(1)
+    apart = np.abs(lively.clip.coordinates - still.clip.coordinates)
+    assert math.radians(0.5) < apart.max() < math.radians(8)
+    moving = np.abs(np.diff(lively.clip.coordinates, axis=0)) * 30.0 > math.radians(0.2)
+    names = rig().coordinates.names
+    for limb in ("back", "head", "neck"):
+        columns = [i for i, name in enumerate(names) if name.startswith(limb)]
+        assert moving[:, columns].any(axis=1).all()
+    inside = slice(frame_at(lively, 0.0), frame_at(lively, 3.0) + 1)
     shown = dict(zip(lively.clip.units, lively.clip.unit_weights[inside].T, strict=True))
     assert not any(np.any(shown.get(unit, 0.0)) for unit in rig().face_morphs["AU43"])
     stare = animate(sync(block("FACE", "0", "30", Morph("AU1", None, 0.7))), rig(), seed=5)
@@ -418,7 +434,6 @@ def test_life_is_seeded_low_and_keeps_off_what_the_score_constrains() -> None:
     assert not any(np.any(shown.get(unit, 0.0)) for unit in rig().face_morphs["AU43"])
     quiet = animate(sync(block("PAUSE", "0", "20")), rig(), seed=5)
     assert quiet.clip.unit_weights.max() > 0.9
-    assert np.ptp(quiet.clip.coordinates, axis=0).max() > math.radians(0.2)
 
 
 def test_the_report_is_plain_json_with_the_documented_fields() -> None:

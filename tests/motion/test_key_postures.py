@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from azee.animation import Animation, animate
 from azee.motion.keys.transpath import boundaries_on_paths, path_motions
 from azee.motion.tasks.key_posture import Origin, Search
+from azee.motion.tasks.key_selection import Mode
 from azee.score.interval import Interval
 from azee.score.score import Block, Group, Hold, Key, Score
 from azee_rig.load import load_rig
@@ -26,7 +27,6 @@ from azee_solver.constraint import (
     Orient,
     Place,
     Relation,
-    Rotate,
     Transpath,
 )
 from azee_solver.geometry import (
@@ -50,7 +50,7 @@ S = Side.STRONG
 MIDDLE, RIGHT = NamedPoint(SigningSpace.MSSP), NamedPoint(SigningSpace.RSSP)
 TIP, WEAK_TIP = Site("I_TIP", S), Site("I_TIP", Side.WEAK)
 HERE, THERE = Place(TIP, MIDDLE), Place(TIP, RIGHT)
-NOD = Rotate(Bone("head"), Vec(1, 0, 0), 0.1)
+NOD = Orient(BoneAxis.DIR, Bone("head"), Relation.ALONG, Vec(0, 1, 0.1))
 
 
 @cache
@@ -118,8 +118,8 @@ def sync(*blocks: Block) -> Group:
     return Group(max(b.interval_in_parent.end for b in blocks), blocks=blocks)
 
 
-def play(score: Score, solver: Recorder) -> Animation:
-    return animate(score, rig(), solver=solver, fps=10, life=False)
+def play(score: Score, solver: Recorder, mode: Mode = "tracks") -> Animation:
+    return animate(score, rig(), solver=solver, fps=10, life=False, mode=mode)
 
 
 def boundaries(solver: Recorder) -> list[Asked]:
@@ -311,6 +311,7 @@ def test_on_a_path_the_trunk_keeps_its_curve_and_the_search_is_local() -> None:
         sync(block("A", "0", ".5", HERE), block("P", ".5", "1", path),
              block("B", "1.5", ".5", THERE)),
         solver,
+        "flat",
     )  # fmt: skip
     on_path = [a for a in solver.asked if a.search is Search.LOCAL]
     trunk = {i for i, n in enumerate(rig().coordinates.names) if n.startswith("back_")}
@@ -327,17 +328,17 @@ def test_what_no_boundary_could_meet_is_not_searched_for_on_a_path() -> None:
         block("B", "1.5", ".5", THERE, NOD),
     )
     infeasible = Recorder(never=frozenset((NOD,)))
-    play(sync(*blocks), infeasible)
+    play(sync(*blocks), infeasible, "flat")
     assert len(boundaries(infeasible)) == 2
     unlucky = Recorder(lambda constraints: HERE in constraints or THERE in constraints)
-    play(sync(*blocks), unlucky)
+    play(sync(*blocks), unlucky, "flat")
     assert len(boundaries(unlucky)) > 2
 
 
 def test_a_moving_point_is_sampled_on_its_way() -> None:
     solver = Recorder()
     moving = Place(TIP, Moving(Straight(), MIDDLE, RIGHT))
-    animation = play(sync(block("A", "0", "1", moving)), solver)
+    animation = play(sync(block("A", "0", "1", moving)), solver, "flat")
     samples = [p for p in animation.report.postures if p.origin is Origin.PATH]
     assert len(samples) > 1
     assert all(0 < d.phase < 1 for p in samples for d in p.ik_tasks)

@@ -140,7 +140,9 @@ def test_every_point_is_known_to_move_or_to_stay(point: Point) -> None:
 @pytest.mark.parametrize("constraint", CONSTRAINTS, ids=title)
 def test_every_constraint_is_a_posture_s_or_a_movement_s(constraint: Constraint) -> None:
     found = schedule(block("ONE", "0", "1", constraint))
-    assert len(found.posture_tasks) == (not isinstance(constraint, Transpath | Trill))
+    layered = isinstance(constraint, Transpath | Trill | Rotate)
+    assert len(found.posture_tasks) == (not layered)
+    assert len(found.accents) == isinstance(constraint, Rotate)
     assert len(found.all) == 1
     assert found.all[0].moves
 
@@ -198,7 +200,7 @@ NRM_UP = Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP)
 def test_contradictions_are_found_by_comparing_expressions(
     first: Constraint, second: Constraint, expected: bool
 ) -> None:
-    both = schedule(block("A", "0", "1", first), block("B", "1", "1", second)).posture_tasks
+    both = schedule(block("A", "0", "1", first), block("B", "1", "1", second)).body_tasks
     assert contradict(both[:1], both[1:], evaluator().binding) == expected
 
 

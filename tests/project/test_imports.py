@@ -54,6 +54,10 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee.clip", "azee.score", "azee.motion.tasks"),
         *("azee_solver", "azee_rig", "numpy"),
     },
+    "azee.motion.projection": {
+        *("azee.score", "azee.motion.tasks", "azee.motion.keys"),
+        *("azee_solver", "azee_rig", "numpy"),
+    },
     "azee.motion": set(),
     "azee.wording": set(),
     "azee.quality": {

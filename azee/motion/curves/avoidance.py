@@ -44,8 +44,9 @@ PASSES = 4
 SAMPLE_S = 1 / 50
 """Time between the postures in which collisions are searched."""
 SAMPLES_AT_ONCE = 240
-TRIGGER_SHARE = 0.3
-"""Pairs collide when nearer than this share of their clearance."""
+DEEP_M, DEEP_FINGERS_M = 0.005, 0.003
+"""Pairs that overlap deeper collide; shallower ones, and fingers of one hand that are, the
+projection pushes apart. A hand that moves *through* a body or another hand it cannot lead round."""
 LEAST_APPROACH_M = 0.002
 """Pairs that come nearer than at the ends of the stretch by less than this do not collide."""
 TOUCH_WINDOW_S = Fraction(1, 2)
@@ -129,10 +130,7 @@ class CollisionAvoidance:
 
     def _colliding_pairs(self, q: Array, times: Array) -> dict[int, NDArray[np.int64]]:
         """Return the pairs that collide in moving postures, and the rows in which they do."""
-        clearance = self.overlaps.clearance_m
-        trigger = np.where(
-            clearance > LEAST_APPROACH_M, -TRIGGER_SHARE * clearance, LEAST_APPROACH_M / 2
-        )
+        deep = np.where(self.overlaps.same_hand, DEEP_FINGERS_M, DEEP_M)
         found: dict[int, list[int]] = {}
         moving = np.flatnonzero(np.any(np.diff(q, axis=0, prepend=q[:1]) != 0.0, axis=1))
         for rows in np.array_split(moving, max(1, len(moving) // 15)):
@@ -140,7 +138,7 @@ class CollisionAvoidance:
                 continue
             touches = self.intended_touches(times[rows[0]], times[rows[-1]])
             depths = self.overlaps.depths(q[rows], self.overlaps.axis_distances(touches))
-            for t, p in zip(*np.nonzero(depths > trigger), strict=True):
+            for t, p in zip(*np.nonzero(depths > deep), strict=True):
                 found.setdefault(int(p), []).append(int(rows[t]))
         return {pair: np.array(rows, dtype=np.int64) for pair, rows in found.items()}
 
@@ -242,7 +240,7 @@ class _OffsetSearch:
         depths = self.overlaps.depths(self.q, self.axis_distances)
         approach = depths.max(axis=0) - np.maximum(depths[0], depths[-1])
         clearance = self.overlaps.clearance_m * self.clearance_share
-        near = depths.max(axis=0) > -TRIGGER_SHARE * clearance
+        near = depths.max(axis=0) > np.where(self.overlaps.same_hand, DEEP_FINGERS_M, DEEP_M)
         if not np.any(near & (approach > LEAST_APPROACH_M)):
             return None
         pairs = np.flatnonzero(np.any(depths > -CONSIDERED_M, axis=0))

@@ -22,6 +22,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.clip.spline import minimum_jerk
 from azee.motion.curves.minimum_jerk import curve_through
 
 Array = NDArray[np.float64]
@@ -47,8 +48,8 @@ CALM_RAD_S2 = math.radians(2000.0)
 """Largest acceleration of a limb that has time."""
 CALM_RAD_S3 = math.radians(30_000.0)
 """Largest jerk of such a limb."""
-PEAK_ACCELERATION, PEAK_JERK = 10.0 / math.sqrt(3.0), 60.0
-"""Largest |s″| and |s‴| of s(τ) = 10τ³ − 15τ⁴ + 6τ⁵, the minimum-jerk movement over 0 ≤ τ ≤ 1."""
+PEAK_SPEED, PEAK_ACCELERATION, PEAK_JERK = 1.875, 10.0 / math.sqrt(3.0), 60.0
+"""Largest |s′|, |s″| and |s‴| of minimum jerk, s(τ) = 10τ³ − 15τ⁴ + 6τ⁵ over 0 ≤ τ ≤ 1."""
 LONGEST_CALM_S = 0.7
 
 
@@ -63,7 +64,7 @@ def calm_transition_s(a: Array, b: Array) -> float:
     turn = float(np.max(np.abs(a - b), initial=0.0))
     by_acceleration = math.sqrt(PEAK_ACCELERATION * turn / CALM_RAD_S2)
     by_jerk = math.cbrt(PEAK_JERK * turn / CALM_RAD_S3)
-    return float(np.clip(max(by_acceleration, by_jerk), SHORTEST_S, LONGEST_CALM_S))
+    return min(max(by_acceleration, by_jerk, SHORTEST_S), LONGEST_CALM_S)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,12 +87,48 @@ class LimbKey:
         return transition_s(self.values, neutral) if self.neutral_s is None else self.neutral_s
 
 
+ONSET_SPREAD_S = 0.06
+"""Between the onsets of the first and the last joint of an arm: people have 20 to 80 ms."""
+SPREAD_SHARE = 0.2
+"""The spread is at most this share of a movement's time."""
+FINGERS_DONE = 0.65
+"""Share of the time of a movement of the hand in which its shape is formed."""
+FINGERS_RAD_S = math.radians(600.0)
+"""Fingers take longer rather than be faster."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Onsets:
+    """When the coordinates of a limb set out in a movement, and when they arrive.
+
+    places: (n,) 0 for what sets out first, 1 for what arrives last. fingers: whether it is a
+    finger, which arrives early.
+    """
+
+    places: Array
+    fingers: bool
+
+    def within(self, before: Array, after: Array, span_s: float) -> tuple[Array, Array]:
+        """Return when coordinates set out and arrive, (n,) each, in a movement of `span_s`."""
+        if self.fingers:
+            turn = float(np.max(np.abs(after - before), initial=0.0))
+            needed = PEAK_SPEED * turn / FINGERS_RAD_S
+            done = min(span_s, max(FINGERS_DONE * span_s, needed))
+            return np.zeros_like(before), np.full_like(before, done)
+        spread = min(ONSET_SPREAD_S, SPREAD_SHARE * span_s)
+        return spread * self.places, span_s - spread * (1.0 - self.places)
+
+
 @dataclass(frozen=True, eq=False)
 class LimbCurve:
-    """All keys of one limb, neutral ones included, in order of time; neutral before and after."""
+    """All keys of one limb, neutral ones included, in order of time; neutral before and after.
+
+    onsets: when each coordinate sets out.
+    """
 
     keys: tuple[LimbKey, ...]
     neutral: Array
+    onsets: Onsets | None = None
 
     @property
     def start_s(self) -> float:
@@ -112,7 +149,7 @@ class LimbCurve:
         for run in self.runs[bisect_left(self._run_ends, first) :]:
             if run[0].time_s > last:
                 break
-            _sample_run(run, times_s, out)
+            _sample_run(run, self.onsets, times_s, out)
         return out
 
     @cached_property
@@ -126,7 +163,7 @@ class LimbCurve:
         return [run[-1].time_s for run in self.runs]
 
 
-def limb_curve(keys: Sequence[LimbKey], neutral: Array) -> LimbCurve:
+def limb_curve(keys: Sequence[LimbKey], neutral: Array, onsets: Onsets | None = None) -> LimbCurve:
     """Return the curve through a limb's keys, with the returns to neutral for which there is time.
 
     It comes from neutral before the first key and returns after the last. Between two keys it
@@ -134,7 +171,7 @@ def limb_curve(keys: Sequence[LimbKey], neutral: Array) -> LimbCurve:
     transitions fit into it.
     """
     if not keys:
-        return LimbCurve((), neutral)
+        return LimbCurve((), neutral, onsets)
     first, last = keys[0], keys[-1]
     out = [LimbKey(first.time_s - first.transition_s(neutral), neutral)]
     for key, following in pairwise(keys):
@@ -146,7 +183,7 @@ def limb_curve(keys: Sequence[LimbKey], neutral: Array) -> LimbCurve:
             out.append(LimbKey(following.time_s - forth, neutral))
     out.append(last)
     out.append(LimbKey(last.time_s + last.transition_s(neutral), neutral))
-    return LimbCurve(tuple(_stopping_at_first_and_last(out)), neutral)
+    return LimbCurve(tuple(_stopping_at_first_and_last(out)), neutral, onsets)
 
 
 def _stopping_at_first_and_last(keys: list[LimbKey]) -> list[LimbKey]:
@@ -158,7 +195,7 @@ def _stopping_at_first_and_last(keys: list[LimbKey]) -> list[LimbKey]:
     return out
 
 
-def _sample_run(keys: Sequence[LimbKey], times_s: Array, out: Array) -> None:
+def _sample_run(keys: Sequence[LimbKey], onsets: Onsets | None, times_s: Array, out: Array) -> None:
     """Fill in the rows of the times from one stop to the next."""
     start, end = keys[0].time_s, keys[-1].time_s
     first = int(np.searchsorted(times_s, start, side="left"))
@@ -170,6 +207,11 @@ def _sample_run(keys: Sequence[LimbKey], times_s: Array, out: Array) -> None:
         out[rows] = keys[-1].values
         return
     values = np.stack([key.values for key in keys])
+    if len(keys) == 2 and onsets is not None:
+        a, b = onsets.within(values[0], values[1], end - start)
+        share = minimum_jerk((times_s[rows, None] - start - a) / (b - a))
+        out[rows] = values[0] + (values[1] - values[0]) * share
+        return
     if np.all(values == values[0]):
         out[rows] = values[0]
         return

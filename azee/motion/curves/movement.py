@@ -9,11 +9,17 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.curves.limb_curves import LimbCurve, LimbKey, calm_transition_s, limb_curve
+from azee.motion.curves.limb_curves import (
+    LimbCurve,
+    LimbKey,
+    Onsets,
+    calm_transition_s,
+    limb_curve,
+)
 from azee.motion.curves.via_points import ViaPoint
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.key_posture import KeyPosture
-from azee.motion.tasks.limbs import Limbs, channel_of_limb
+from azee.motion.tasks.limbs import Limbs, channel_of_limb, is_finger, place_in_arm
 from azee.score.interval import Interval
 from azee_rig.coordinates import Coordinates
 
@@ -65,6 +71,7 @@ class Interpolation:
     def through(self, postures: Iterable[KeyPosture]) -> Movement:
         """Return the movement through key postures: each limb goes through those that key it."""
         ordered = sorted(postures, key=lambda p: p.time)
+        times = {p: self._neutral_s(p) for p in ordered} if self.hands_together else {}
         curves = {}
         for limb, members in self.limbs.members.items():
             own = [p for p in ordered if limb in p.limbs]
@@ -72,12 +79,21 @@ class Interpolation:
             keys = [
                 LimbKey(
                     float(p.time), p.coordinates[members], limb in p.passing, h,
-                    self._neutral_s(p, limb) if self.hands_together else None,
+                    times[p][limb] if times else None,
                 )
                 for p, h in zip(own, [*held, False], strict=False)
             ]  # fmt: skip
-            curves[limb] = limb_curve(keys, self.coordinates.idle[members])
+            curves[limb] = limb_curve(keys, self.coordinates.idle[members], self._onsets(limb))
         return Movement(self.coordinates, self.limbs, curves)
+
+    def _onsets(self, limb: str) -> Onsets | None:
+        """Return when the coordinates of a limb set out; none if all do at once."""
+        names = [self.coordinates.names[v] for v in self.limbs.members[limb]]
+        places = np.array([place_in_arm(name) for name in names])
+        fingers = is_finger(limb)
+        if not self.hands_together or not (fingers or places.any()):
+            return None
+        return Onsets(places, fingers)
 
     def _is_held(self, limb: str, a: KeyPosture, b: KeyPosture) -> bool:
         """Whether something needs a limb all the time from one of its keys to the next."""
@@ -86,22 +102,21 @@ class Interpolation:
             for needed in self.limbs_in_use.covering(Interval(a.time, b.time))
         )
 
-    def _neutral_s(self, posture: KeyPosture, limb: str) -> float:
-        """Time from or to neutral that a limb takes together with what moves with it.
+    def _neutral_s(self, posture: KeyPosture) -> dict[str, float]:
+        """Time from or to neutral that each limb takes together with what moves with it.
 
         The fingers form a handshape while the arm brings the hand there: all of a hand's limbs
         that the posture keys take as long as the slowest of them.
         """
         q, neutral = posture.coordinates, self.coordinates.idle
-        hand = channel_of_limb(limb) == "hands" and limb[-2:]
-        return max(
-            calm_transition_s(q[members], neutral[members])
-            for other, members in self.limbs.members.items()
-            if other == limb
-            or (
-                hand
-                and channel_of_limb(other) == "hands"
-                and other[-2:] == hand
-                and other in posture.limbs
-            )
-        )
+        members = self.limbs.members
+        own = {limb: calm_transition_s(q[members[limb]], neutral[members[limb]])
+               for limb in posture.limbs}  # fmt: skip
+        slowest: dict[str, float] = {}
+        for limb, seconds in own.items():
+            if channel_of_limb(limb) == "hands":
+                slowest[limb[-2:]] = max(seconds, slowest.get(limb[-2:], 0.0))
+        return {
+            limb: slowest[limb[-2:]] if channel_of_limb(limb) == "hands" else seconds
+            for limb, seconds in own.items()
+        }

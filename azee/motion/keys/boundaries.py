@@ -18,6 +18,7 @@ from azee.motion.keys.key_posture_solver import KeyPostureSolver
 from azee.motion.keys.residual_monitor import in_force
 from azee.motion.tasks.contradiction import contradict
 from azee.motion.tasks.key_posture import KeyPosture, Origin
+from azee.motion.tasks.key_selection import beginning_or_ending
 from azee.motion.tasks.limbs import CARRIERS
 from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import (
@@ -62,7 +63,7 @@ def solve_boundaries(
     for keyframe in schedule.timeline.keyframes:
         time = keyframe.time
         tasks = in_force(schedule, time, early_ends)
-        if not tasks or time in deferred:
+        if not beginning_or_ending(tasks, time) or time in deferred:
             continue
         opening = [t for t in tasks if t.requirement.starts_or_runs(time)]
         closing = [t for t in tasks if not t.requirement.starts_or_runs(time)]

@@ -11,7 +11,6 @@ import numpy as np
 
 from azee.motion.curves.movement import Interpolation, Movement
 from azee.motion.keys.in_between import InBetweenSolver
-from azee.motion.keys.key_insertion import CLOSEST_S, merge_keys
 from azee.motion.keys.transpath import (
     PathMotion,
     anchor,
@@ -23,6 +22,9 @@ from azee.motion.keys.transpath import (
 )
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.key_posture import KeyPosture, Origin
+
+CLOSEST_S = 0.003
+"""Keys nearer to another than this would only make the movement shake."""
 
 
 @dataclass(slots=True, eq=False)
@@ -47,7 +49,8 @@ class PathKeys:
         out = []
         for posture in self.postures:
             on_paths = (m.task.limbs for m in self._in_control(posture.time))
-            out.append(replace(posture, limbs=posture.limbs.difference(*on_paths)))
+            free = posture.limbs.difference(*on_paths)
+            out.append(posture if free == posture.limbs else replace(posture, limbs=free))
         return self.interpolation.through(out)
 
     def anchor_paths(self, joined: Movement) -> None:
@@ -124,3 +127,15 @@ def nearest_in(ordered: Sequence[Fraction], time: Fraction) -> Fraction:
     """Return the instant of an increasing sequence, not empty, that is nearest to another."""
     i = bisect_left(ordered, time)
     return min(ordered[max(0, i - 1) : i + 1], key=lambda t: abs(t - time))
+
+
+def merge_keys(postures: Iterable[KeyPosture], added: Iterable[KeyPosture]) -> list[KeyPosture]:
+    """Return key postures in order of time; one added at the instant of a key keys more limbs."""
+    by_time = {p.time: p for p in postures}
+    for new in added:
+        old = by_time.get(new.time)
+        if old is not None:
+            passing = old.passing | (new.limbs - old.limbs)
+            new = replace(new, limbs=old.limbs | new.limbs, passing=passing, origin=old.origin)
+        by_time[new.time] = new
+    return sorted(by_time.values(), key=lambda p: p.time)

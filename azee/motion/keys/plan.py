@@ -14,11 +14,10 @@ from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.movement import Interpolation, Movement
 from azee.motion.keys.boundaries import solve_boundaries
 from azee.motion.keys.in_between import InBetweenSolver
-from azee.motion.keys.key_insertion import insert_keys
 from azee.motion.keys.key_posture_solver import KeyPostureSolver
 from azee.motion.keys.neutral import ReturnToNeutral
 from azee.motion.keys.path_keys import PathKeys
-from azee.motion.keys.residual_monitor import MovementSamples, ResidualMonitor, sample_movement
+from azee.motion.keys.residual_monitor import ResidualMonitor
 from azee.motion.keys.transpath import (
     PathMotion,
     boundaries_on_paths,
@@ -36,13 +35,11 @@ from azee_solver.evaluate import Evaluator
 class Plan:
     """Key postures in order of time, the movement through them, and what measures it.
 
-    samples: the movement at the frames inside the score and at the keys. monitor: measures its
-    residuals.
+    monitor: measures its residuals.
     """
 
     postures: tuple[KeyPosture, ...]
     movement: Movement
-    samples: MovementSamples
     monitor: ResidualMonitor
 
 
@@ -79,22 +76,18 @@ def plan(
     # 7. Solve the boundaries that lie on paths.
     keys.solve_deferred(deferred, joined)
 
-    # 8. Add keys at even steps along paths and behind moving targets.
-    keys.sample_paths(joined)
-    keys.sample_moving_targets()
+    # 8. In flat mode add keys at even steps along paths and behind moving targets.
+    if selection.flat:
+        keys.sample_paths(joined)
+        keys.sample_moving_targets()
+    movement = interpolation.through(keys.postures)
 
-    # 9. Add a key at the worst frame of each stretch until every frame meets every constraint;
-    # in flat mode none.
-    keyed = insert_keys(keys.postures, keys.in_between, interpolation, frame_times)
-
-    # 10. Lead the movement round the body where it would go through it.
-    movement, samples = keyed.movement, keyed.samples
+    # 9. Lead the movement round the body where it would go through it.
     if not selection.flat:
         avoidance = CollisionAvoidance(evaluator, schedule, in_use, CapsuleOverlaps(evaluator))
         movement = avoidance.avoid_collisions(movement)
-        samples = sample_movement(movement, samples.times, evaluator)
 
-    return Plan(keyed.postures, movement, samples, keys.in_between.monitor)
+    return Plan(tuple(keys.postures), movement, keys.in_between.monitor)
 
 
 def _limbs_in_use(

@@ -97,6 +97,8 @@ class ResidualMonitor:
     def rows_inside(self, task: TimedTask, seconds: Array, *, enforced: bool = False) -> slice:
         """Return which of increasing instants are inside a task's block, both ends included.
 
+        For a block between two of them it is the nearest one.
+
         Args: enforced: only those at which the movement must meet it: up to its early end.
         """
         first, last = float(task.interval.start), float(task.interval.end)
@@ -108,8 +110,11 @@ class ResidualMonitor:
         if early is not None:
             # The end itself belongs to the block that starts there.
             last = float(early.time) + _SAME_S if enforced else last - 2 * _SAME_S
-        rows = np.searchsorted(seconds, (first - _SAME_S, last))
-        return slice(int(rows[0]), max(int(rows[0]), int(rows[1])))
+        start, stop = (int(i) for i in np.searchsorted(seconds, (first - _SAME_S, last)))
+        if start < stop or not len(seconds):
+            return slice(start, max(start, stop))
+        nearest = int(np.abs(seconds - (first + last) / 2).argmin())
+        return slice(nearest, nearest + 1)
 
     def residual(self, task: TimedTask, samples: MovementSamples) -> Array:
         """How far a task is from being met at instants inside its block, (T,)."""

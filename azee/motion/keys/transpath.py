@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -21,13 +21,14 @@ from azee.clip.spline import minimum_jerk
 from azee.motion.curves.movement import Movement
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.key_posture import KeyPosture
+from azee.motion.tasks.limbs import CARRIERS, limb_of_bone
 from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
 from azee_solver.constraint import LookAt, Place, Transpath
 from azee_solver.evaluate import Evaluator
-from azee_solver.geometry import Side, WorldPoint
+from azee_solver.geometry import Bone, Point, Side, WorldPoint, depends_on
 from azee_solver.task import Task
 
 Array = NDArray[np.float64]
@@ -49,7 +50,8 @@ class PathMotion:
     """A transpath, the placements it leads from and to, and when the site is on its way.
 
     before, after: none where nothing places the site within `LONGEST_WAIT_S`; then the path starts
-    or ends where the body has the site anyway.
+    or ends where the body has the site anyway. lead: by how much of its time the site is early in
+    the middle of its way: nobody moves twice alike.
     """
 
     task: TimedTask
@@ -57,6 +59,7 @@ class PathMotion:
     after: TimedTask | None
     start: Fraction
     end: Fraction
+    lead: float = 0.0
 
     @property
     def constraint(self) -> Transpath:
@@ -82,7 +85,10 @@ class PathMotion:
     def progress(self, time: Fraction) -> float:
         """How far along the path the site is, 0 to 1."""
         span = self.end - self.start
-        return float(minimum_jerk(float((time - self.start) / span))) if span > 0 else 1.0
+        if span <= 0:
+            return 1.0
+        share = min(max(float((time - self.start) / span), 0.0), 1.0)
+        return float(minimum_jerk(share + 4.0 * self.lead * share * (1.0 - share)))
 
     def controls(self, time: Fraction) -> bool:
         """Whether the path, rather than a placement, holds the site at an instant."""
@@ -92,33 +98,47 @@ class PathMotion:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class PathEnd:
+    """Where a path starts or ends, and when.
+
+    world: (3,) metres, in the key posture there. carrier: the point of trunk or head that the
+    placement there aims at, if it does, and at which phase. offset: (3,) from it to `world`.
+    """
+
+    time: Fraction
+    world: Array
+    carrier: Point | None = None
+    phase: float = 0.0
+    offset: Array | None = None
+
+    def carried(self, frames: Frames, evaluator: Evaluator) -> PathEnd:
+        """Return the end in another posture at its time: a body that breathes takes it along."""
+        if self.carrier is None or self.offset is None:
+            return self
+        return replace(self, world=evaluator.point(self.carrier, frames, self.phase) + self.offset)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class AnchoredPath:
-    """A path motion whose two ends are known: world points (3,), metres."""
+    """A path motion whose two ends are known."""
 
     motion: PathMotion
-    start: Array
-    end: Array
+    start: PathEnd
+    end: PathEnd
 
     def targets(self, times: Sequence[Fraction], frames: Frames, evaluator: Evaluator) -> Array:
         """Return where the site should be at times, (T, 3); frames (T, …) of the body then."""
         progress = np.array([self.motion.progress(t) for t in times])
         path, reads_body = self.motion.constraint.path, bool(self.motion.task.reads)
+        ends = self.start.world, self.end.world
         if not reads_body:
             one = Frames(frames.positions[:1], frames.rotations[:1])
-            points = evaluator.path(path, self.start, self.end, progress, one)
-            return np.asarray(points.reshape(-1, 3))
-        return np.stack(
-            [
-                evaluator.path(
-                    path,
-                    self.start,
-                    self.end,
-                    float(s),
-                    Frames(frames.positions[i], frames.rotations[i]),
-                )
-                for i, s in enumerate(progress)
-            ]
-        )
+            return np.asarray(evaluator.path(path, *ends, progress, one).reshape(-1, 3))
+        out = np.empty((len(times), 3))
+        for i, s in enumerate(progress):
+            now = Frames(frames.positions[i], frames.rotations[i])
+            out[i] = evaluator.path(path, *ends, float(s), now)
+        return out
 
     def ik_task(self, point: Array) -> Task:
         """Return the placement of the site on a point of its path."""
@@ -228,26 +248,49 @@ def anchor(
             first.setdefault(task, posture)
             last[task] = posture
 
-    def site(motion: PathMotion, posture: KeyPosture | None, time: Fraction) -> Array:
-        at = np.array([float(time)])
-        q = movement.sample(at)[0] if posture is None else posture.coordinates
-        return evaluator.site(motion.constraint.site, evaluator.rig.chain.frames(q))
+    def end(
+        motion: PathMotion, placement: TimedTask | None, key: KeyPosture | None, time: Fraction
+    ) -> PathEnd:
+        q = movement.sample(np.array([float(time)]))[0] if key is None else key.coordinates
+        frames = evaluator.rig.chain.frames(q)
+        world = evaluator.site(motion.constraint.site, frames)
+        if placement is None or key is None:
+            return PathEnd(time, world)
+        assert isinstance(placement.constraint, Place)
+        point, phase = placement.constraint.point, placement.phase(time)
+        if not depends_on(point) or not _on_trunk_or_head(point, evaluator):
+            return PathEnd(time, world)
+        return PathEnd(time, world, point, phase, world - evaluator.point(point, frames, phase))
 
     out = {}
     for motion in motions:
-        leaving = None if motion.before is None else last.get(motion.before)
-        arriving = None if motion.after is None else first.get(motion.after)
+        before, after = motion.before, motion.after
+        leaving = None if before is None else last.get(before)
+        arriving = None if after is None else first.get(after)
         out[motion.task.rank] = AnchoredPath(
-            motion, site(motion, leaving, motion.start), site(motion, arriving, motion.end)
+            motion,
+            end(motion, before, leaving, motion.start),
+            end(motion, after, arriving, motion.end),
         )
     return out
+
+
+def _on_trunk_or_head(point: Point, evaluator: Evaluator) -> bool:
+    """Whether a point is carried by trunk and head alone; hands move on paths of their own."""
+    binding = evaluator.binding
+    bones = (
+        name.key(binding.dominant) if isinstance(name, Bone) else binding.site(name).bone
+        for name in depends_on(point)
+    )
+    return all(limb_of_bone(bone) in CARRIERS for bone in bones)
 
 
 def path_sample_times(path: AnchoredPath, frames: Frames, evaluator: Evaluator) -> list[Fraction]:
     """Return instants at which to sample a path. `frames`: one posture, for paths that read it."""
     motion = path.motion
     progress = np.linspace(0.0, 1.0, _PATH_POINTS)
-    points = evaluator.path(motion.constraint.path, path.start, path.end, progress, frames)
+    ends = path.start.world, path.end.world
+    points = evaluator.path(motion.constraint.path, *ends, progress, frames)
     return sample_times(points, Interval(motion.start, motion.end))
 
 

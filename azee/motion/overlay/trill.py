@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.spline import minimum_jerk
+from azee.motion.overlay.turning import angular_velocity
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
 from azee_rig.coordinates import Coordinates
@@ -30,7 +31,6 @@ Array = NDArray[np.float64]
 FADE_S = 0.1
 OWN_JOINT_SHARE = 0.9
 """Share of the axis that a bone's own joint must be able to turn about, or the next one helps."""
-_STEP_RAD = 1e-5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,7 +77,7 @@ def oscillation(task: TimedTask, q: Array, evaluator: Evaluator) -> Oscillation:
     first = int(chain.parents[nodes.origin_node])
     for _ in range(2):
         movers = sorted(body.below(first, nodes.node))
-        J = np.stack([_angular_velocity(evaluator, q, v, nodes.node) for v in movers], axis=1)
+        J = np.stack([angular_velocity(evaluator.rig, q, v, nodes.node) for v in movers], axis=1)
         change = np.linalg.lstsq(J, axis, rcond=1e-6)[0]
         turnable = float(np.linalg.norm(J @ change))
         if turnable > best.turnable + 1e-6:
@@ -121,16 +121,6 @@ def _joint_before(node: int, evaluator: Evaluator) -> int:
     while node >= 0 and node not in origins:
         node = int(parents[node])
     return int(parents[origins[node]]) if node >= 0 else -1
-
-
-def _angular_velocity(evaluator: Evaluator, q: Array, coordinate: int, node: int) -> Array:
-    """World angular velocity of a node per unit speed of a coordinate, (3,)."""
-    both = np.stack([q, q])
-    both[0, coordinate] -= _STEP_RAD
-    both[1, coordinate] += _STEP_RAD
-    R = evaluator.rig.chain.frames(both).rotations[:, node]
-    spin = (R[1] @ R[0].T - R[0] @ R[1].T) / (4 * _STEP_RAD)
-    return np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
 
 
 def _world_axis(trill: Trill, frames: Frames, evaluator: Evaluator) -> Array:

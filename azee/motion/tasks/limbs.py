@@ -62,6 +62,23 @@ def channel_of_limb(limb: str) -> str:
     return limb if limb in ("head", "trunk", "eyes") else "hands"
 
 
+ARM_ORDER = ("clav", "arm", "f_arm", "palm")
+"""Bones of an arm from the trunk outwards."""
+
+
+def place_in_arm(coordinate: str) -> float:
+    """How far down the arm a coordinate is, 0 at the clavicle to 1 at the hand; else 0."""
+    bone = coordinate.partition(".")[0]
+    if not _ARM.fullmatch(bone):
+        return 0.0
+    return ARM_ORDER.index(bone[:-2]) / (len(ARM_ORDER) - 1)
+
+
+def is_finger(limb: str) -> bool:
+    """Whether a limb is a finger or a thumb."""
+    return _FINGER.fullmatch(limb) is not None
+
+
 @dataclass(frozen=True, eq=False)
 class Limbs:
     """The limbs of one rig: names (L,) and the limb of every coordinate, (V,) indices."""

@@ -7,7 +7,7 @@ from functools import cached_property
 
 from azee.motion.tasks.flatten import Timeline
 from azee.motion.tasks.interval_index import IntervalIndex
-from azee.motion.tasks.limbs import Limbs, channel_of_constraint, limb_of_constraint
+from azee.motion.tasks.limbs import CARRIERS, Limbs, channel_of_constraint, limb_of_constraint
 from azee.motion.tasks.requirement import Requirement
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.rig import Rig
@@ -35,6 +35,7 @@ from azee_solver.geometry import (
     SitePoint,
     VTranslate,
     WorldPoint,
+    depends_on,
 )
 
 
@@ -43,12 +44,14 @@ class TaskSchedule:
     """All that a score requires of one body.
 
     timeline: the flattened score. posture_tasks: what key postures meet. transpaths: paths of
-    sites between placements. trills, facial_morphs: what is laid on the finished movement.
+    sites between placements. accents: rotations that add to the posture beneath them. trills,
+    facial_morphs: what is laid on the finished movement.
     """
 
     timeline: Timeline
     posture_tasks: tuple[TimedTask, ...]
     transpaths: tuple[TimedTask, ...]
+    accents: tuple[TimedTask, ...]
     trills: tuple[TimedTask, ...]
     facial_morphs: tuple[TimedTask, ...]
 
@@ -80,7 +83,7 @@ class TaskSchedule:
     @property
     def body_tasks(self) -> tuple[TimedTask, ...]:
         """What moves the skeleton: everything but the face."""
-        return (*self.posture_tasks, *self.transpaths, *self.trills)
+        return (*self.posture_tasks, *self.transpaths, *self.accents, *self.trills)
 
     @cached_property
     def all(self) -> tuple[TimedTask, ...]:
@@ -88,12 +91,19 @@ class TaskSchedule:
         return tuple(sorted((*self.body_tasks, *self.facial_morphs), key=lambda t: t.rank))
 
 
-def bind(timeline: Timeline, rig: Rig, binding: Binding, limbs: Limbs) -> TaskSchedule:
+def bind(
+    timeline: Timeline, rig: Rig, binding: Binding, limbs: Limbs, *, layered: bool = True
+) -> TaskSchedule:
     """Bind every requirement to a body; of a hold's requirements, keep those in its channels.
 
     A body does what it can: what names a bone, a site or a morph that it lacks is left out.
+
+    Args: layered: whether rotations of trunk, neck, head and shoulders are accents, which add up.
+        Otherwise they are tasks of postures like others.
     """
-    kinds: dict[type, list[TimedTask]] = {Transpath: [], Trill: [], Morph: [], object: []}
+    kinds: dict[type, list[TimedTask]] = {
+        Transpath: [], Rotate: [], Trill: [], Morph: [], object: []
+    }  # fmt: skip
     for requirement in timeline.requirements:
         constraint = requirement.constraint
         if not binding.has(constraint):
@@ -103,15 +113,28 @@ def bind(timeline: Timeline, rig: Rig, binding: Binding, limbs: Limbs) -> TaskSc
             continue
         task = _timed_task(requirement, rig, binding, limbs)
         facial = isinstance(constraint, Morph) and not binding.is_skeletal(constraint)
-        outside_postures = isinstance(constraint, Transpath | Trill) or facial
+        accent = layered and is_accent(task)
+        outside_postures = isinstance(constraint, Transpath | Trill) or facial or accent
         kinds[type(constraint) if outside_postures else object].append(task)
     return TaskSchedule(
         timeline,
         posture_tasks=tuple(kinds[object]),
         transpaths=tuple(kinds[Transpath]),
+        accents=tuple(kinds[Rotate]),
         trills=tuple(kinds[Trill]),
         facial_morphs=tuple(kinds[Morph]),
     )
+
+
+def is_accent(task: TimedTask) -> bool:
+    """Whether a task turns trunk, neck, head or a shoulder by an angle of its own.
+
+    A rotation whose axis is read off the body (a site, another bone) is none.
+    """
+    constraint = task.constraint
+    if not isinstance(constraint, Rotate) or depends_on(constraint.axis):
+        return False
+    return task.limb in CARRIERS or constraint.bone.name == "clav"
 
 
 def _timed_task(requirement: Requirement, rig: Rig, binding: Binding, limbs: Limbs) -> TimedTask:

@@ -40,7 +40,8 @@ def tracks(
 
     Blocks that move the same hand or arm both have it in their track. Trunk and head, which carry
     others, are in the track of one block only: the one that names them, else the first to begin of
-    those that move them. Faces have no coordinates and no track; trills have one without keys.
+    those that move them. Accents have keys where they begin and end. Faces have no coordinates and
+    no track; trills have one without keys.
     """
     if selection.flat:
         keys = tuple(sorted({float(p.time) for p in postures}))
@@ -51,6 +52,9 @@ def tracks(
             movers = [t for t in posture.timed_tasks if limb in t.limbs]
             for task in _owners(limb, movers):
                 key_times[task].setdefault(limb, []).append(float(posture.time))
+    for task in schedule.accents:
+        ends = dict.fromkeys((float(task.interval.start), float(task.interval.end)))
+        key_times[task][task.limb] = [*ends]
     blocks: dict[tuple[str, ...], list[TimedTask]] = {}
     for task in sorted(key_times, key=lambda t: t.rank):
         blocks.setdefault(task.path, []).append(task)

@@ -1,0 +1,282 @@
+"""The problems of a movement's frames: frames in which the same is in force share one program.
+
+A program is laid out once for a set of tasks and paths. What differs from frame to frame in it, the
+target of a site on a path or behind a moving point, is filled in for each frame.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.keys.residual_monitor import ResidualMonitor
+from azee.motion.keys.transpath import AnchoredPath
+from azee.motion.tasks.timed_task import TimedTask
+from azee_rig.chain import Frames
+from azee_solver.anatomy import anatomy
+from azee_solver.body import Body
+from azee_solver.constraint import Constraint, Morph, Place
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import SitePoint
+from azee_solver.options import SolveOptions
+from azee_solver.program import Cost, Program, used_entries
+from azee_solver.residuals import lower
+from azee_solver.tape import Tape
+from azee_solver.task import Task
+from azee_solver.trajectory import ORDER, SMOOTH_S, Refills, Trajectory
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+TOUCH_S = 0.15
+"""Bodies may be as near as a touch brings them this long before and after it."""
+PRESET_PLAY_RAD = math.radians(0.4)
+"""How far fingers may be from the angles of their handshape, inside the tolerance."""
+_SOMEWHERE = np.array([0.123456, 1.0, 0.5])
+"""Stands for the target of a path until it is filled in; metres."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrameProblems:
+    """Makes the trajectory problem of a movement.
+
+    factors: of the weights of constraints, where not 1.
+    """
+
+    monitor: ResidualMonitor
+    factors: Mapping[Constraint, float]
+    options: SolveOptions
+
+    def trajectory(
+        self, times: Sequence[Fraction], reference: Array, accented: Mask, fps: float
+    ) -> Trajectory:
+        """Return the problem of the frames at exact times, near a movement.
+
+        Args: reference: (T, V). accented: (T, V), where accents ask for what the reference has.
+        """
+        coordinates = self.monitor.evaluator.rig.coordinates
+        free_keep = self.options.posture * np.array(coordinates.stiffness) ** 2
+        keep = np.tile(free_keep, (len(times), 1))
+        keep[accented] = self.options.tolerance.angle_rad**-2
+        fixed = np.zeros(keep.shape, dtype=np.bool_)
+        target = np.clip(reference, coordinates.lower, coordinates.upper)
+        of_frame = np.empty(len(times), dtype=np.int64)
+        programs: list[Program] = []
+        moving: list[_Moving] = []
+        for now, rows in self._in_force(times):
+            problem = self._problem(now, times[rows[0]])
+            of_frame[rows] = len(programs)
+            programs.append(problem.program)
+            for v, angle in problem.presets.items():
+                fixed[rows, v] = True
+                near = np.clip(target[rows, v], angle - PRESET_PLAY_RAD, angle + PRESET_PLAY_RAD)
+                target[rows, v] = np.clip(near, coordinates.lower[v], coordinates.upper[v])
+            moving += self._paths(problem, rows, times)
+            moving += self._moving_targets(problem, rows, times, reference)
+        smooth = free_keep * (SMOOTH_S * fps) ** (2 * ORDER)
+        refilling = _Refilling(self.monitor.evaluator, len(times), moving)
+        return Trajectory(
+            programs, of_frame, target, keep, fixed, smooth, self.options.overlap, refilling
+        )
+
+    def _in_force(self, times: Sequence[Fraction]) -> list[tuple[_InForce, list[int]]]:
+        """Return what holds together in frames, and in which."""
+        seconds = np.array([float(time) for time in times])
+        tasks = self.monitor.schedule.posture_tasks
+        first_of: dict[object, int] = {}
+        same = [first_of.setdefault(t if t.dynamic else t.constraint, i)
+                for i, t in enumerate(tasks)]  # fmt: skip
+        holding = [self.monitor.rows_inside(t, seconds, enforced=True) for t in tasks]
+        paths = [*self.monitor.paths.values()]
+        controlled = [[t for t in range(*self._rows(p, seconds)) if p.motion.controls(times[t])]
+                      for p in paths]  # fmt: skip
+        touches = {i for i in first_of.values() if _is_touch(tasks[i].constraint)}
+        near = [
+            (i, np.searchsorted(seconds, (float(t.interval.start) - TOUCH_S,
+                                          float(t.interval.end) + TOUCH_S), side="right"))
+            for i, t in zip(same, tasks, strict=True)
+            if i in touches
+        ]  # fmt: skip
+        held: list[set[int]] = [set() for _ in times]
+        on: list[list[int]] = [[] for _ in times]
+        touching: list[set[int]] = [set() for _ in times]
+        for i, rows in zip(same, holding, strict=True):
+            for t in range(rows.start, rows.stop):
+                held[t].add(i)
+        for p, instants in enumerate(controlled):
+            for t in instants:
+                on[t].append(p)
+        for i, (start, stop) in near:
+            for t in range(int(start), int(stop)):
+                touching[t].add(i)
+        groups: dict[tuple[frozenset[int], tuple[int, ...], frozenset[int]], list[int]] = {}
+        for t in range(len(times)):
+            key = frozenset(held[t]), tuple(on[t]), frozenset(touching[t])
+            groups.setdefault(key, []).append(t)
+        return [
+            (
+                _InForce(
+                    tuple(tasks[i] for i in sorted(some)),
+                    tuple(paths[p] for p in along),
+                    tuple(tasks[i].constraint for i in sorted(close)),
+                ),
+                rows,
+            )
+            for (some, along, close), rows in groups.items()
+        ]  # fmt: skip
+
+    def _rows(self, path: AnchoredPath, seconds: Array) -> tuple[int, int]:
+        rows = self.monitor.rows_inside(path.motion.task, seconds)
+        return rows.start, rows.stop
+
+    def _problem(self, now: _InForce, time: Fraction) -> _Problem:
+        evaluator = self.monitor.evaluator
+        rig = evaluator.rig
+        idle = rig.coordinates.idle
+        presets = evaluator.binding.presets([t.constraint for t in now.tasks])
+        body = Body(rig, evaluator, idle, presets, self.options, now.touches)
+        count = len(now.tasks)
+        tasks = {i: t.ik_task(time) for i, t in enumerate(now.tasks) if _has_rows(t)}
+        tasks |= {count + i: path.ik_task(_SOMEWHERE) for i, path in enumerate(now.paths)}
+        factors = {
+            i: self.factors[task.constraint]
+            for i, task in tasks.items()
+            if task.constraint in self.factors
+        }
+        tape = self._tape(body.frames(idle))
+        residuals = lower(tape, tasks, self.options.tolerance, factors)
+        everything, nothing = frozenset(range(len(idle))), np.zeros(len(idle))
+        program = Program(
+            rig, idle, sorted(everything), tape, residuals.rows,
+            body.obstacles.for_problem(everything, frozenset()),
+            Cost(np.array(idle), nothing, nothing, self.options.overlap),
+        )  # fmt: skip
+        return _Problem(now, tasks, residuals.runs, presets, program)
+
+    def _tape(self, frames: Frames) -> Tape:
+        rig = self.monitor.evaluator.rig
+        everything = frozenset(range(len(rig.coordinates)))
+        moving = anatomy(rig.chain, rig.coordinates).moved_by(everything)
+        return Tape(self.monitor.evaluator, frames, moving)
+
+    def _paths(
+        self, problem: _Problem, rows: Sequence[int], times: Sequence[Fraction]
+    ) -> Iterable[_OnPath]:
+        """Yield the sites on paths in frames that share a program."""
+        for i, path in enumerate(problem.now.paths):
+            row = problem.program.rows[problem.runs[len(problem.now.tasks) + i][0]]
+            yield _OnPath(path, row.b, {t: times[t] for t in rows})
+
+    def _moving_targets(
+        self, problem: _Problem, rows: Sequence[int], times: Sequence[Fraction], q: Array
+    ) -> Iterable[_Numbers]:
+        """Yield what differs in the tapes of frames with moving targets."""
+        moving = [i for i, task in enumerate(problem.now.tasks) if task.dynamic]
+        if not moving:
+            return
+        on_paths = [p.entry for p in self._paths(problem, rows, times)]
+        frames = self.monitor.evaluator.rig.chain.frames(q[rows])
+        numbers = []
+        for k, t in enumerate(rows):
+            tape = self._tape(Frames(frames.positions[k], frames.rotations[k]))
+            now = {i: problem.now.tasks[i].ik_task(times[t]) for i in moving}
+            tasks = {**problem.tasks, **now}
+            numbers.append(used_entries(tape, lower(tape, tasks, self.options.tolerance, {}).rows))
+        # What differs in one frame is filled in for all of them: they share one tape.
+        differs = np.any(np.stack(numbers) != problem.program.tape_numbers, axis=(0, 2))
+        differs[on_paths] = False
+        for t, of_frame in zip(rows, numbers, strict=True):
+            yield _Numbers(t, np.flatnonzero(differs), of_frame[differs])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _OnPath:
+    """A site on a path: which entry its target is, and when, by frame."""
+
+    path: AnchoredPath
+    entry: int
+    times: Mapping[int, Fraction]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Numbers:
+    """Entries (m,) and numbers (m, 5) of a frame, the same for all postures."""
+
+    frame: int
+    entries: NDArray[np.int64]
+    numbers: Array
+
+
+_Moving = _OnPath | _Numbers
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Refilling:
+    """Fills in the targets that move, in so many frames."""
+
+    evaluator: Evaluator
+    count: int
+    moving: Sequence[_Moving]
+
+    def __call__(self, frames: range, q: Array) -> Refills:
+        """Return the refills of some frames, in which the body has the postures q (T, V)."""
+        found: list[list[tuple[int, Array]]] = [[] for _ in frames]
+        body: Frames | None = None
+        for moving in self.moving:
+            match moving:
+                case _Numbers(frame, entries, numbers):
+                    if frame in frames:
+                        found[frame - frames.start] += [*zip(entries, numbers, strict=True)]
+                case _OnPath(path, entry, times):
+                    rows = [t for t in times if t in frames]
+                    if not rows:
+                        continue
+                    body = body or self.evaluator.rig.chain.frames(q)
+                    here = [t - frames.start for t in rows]
+                    then = Frames(body.positions[here], body.rotations[here])
+                    points = path.targets([times[t] for t in rows], then, self.evaluator)
+                    for row, point in zip(here, points, strict=True):
+                        found[row].append((entry, np.array([*point, 0.0, 0.0])))
+        counts = np.array([len(f) for f in found], dtype=np.int64)
+        places = np.zeros((len(found), max(1, int(counts.max(initial=0)))), dtype=np.int64)
+        filled = np.zeros((*places.shape, 5))
+        for row, entries_of_row in enumerate(found):
+            for j, (entry, numbers) in enumerate(entries_of_row):
+                places[row, j], filled[row, j] = entry, numbers
+        return Refills(counts, places, filled)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _InForce:
+    """What holds in a frame: distinct tasks, paths in control, touches that are near in time."""
+
+    tasks: tuple[TimedTask, ...]
+    paths: tuple[AnchoredPath, ...]
+    touches: tuple[Constraint, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Problem:
+    """A program with what it was made for.
+
+    tasks: what it asks, by index. runs: rows of each. presets: angles of handshapes, by coordinate.
+    """
+
+    now: _InForce
+    tasks: Mapping[int, Task]
+    runs: Mapping[int, tuple[int, int]]
+    presets: Mapping[int, float]
+    program: Program
+
+
+def _has_rows(task: TimedTask) -> bool:
+    return not isinstance(task.constraint, Morph)
+
+
+def _is_touch(constraint: Constraint) -> bool:
+    return isinstance(constraint, Place) and isinstance(constraint.point, SitePoint)

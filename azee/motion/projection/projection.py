@@ -1,0 +1,93 @@
+"""The movement as it is performed: key curves with layers on them, drawn onto the constraints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.keys.plan import Plan
+from azee.motion.keys.residual_monitor import MovementSamples
+from azee.motion.keys.transpath import PathEnd
+from azee.motion.projection.frame_problems import FrameProblems
+from azee_rig.chain import Frames
+from azee_solver.constraint import Constraint
+from azee_solver.options import SolveOptions
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reference:
+    """The movement that is wanted as far as constraints allow, at the frames of a clip.
+
+    times: exact, on the score's time line. q: (T, V), not limited. accented: (T, V), where accents
+    ask for what q has.
+    """
+
+    times: tuple[Fraction, ...]
+    q: Array
+    accented: NDArray[np.bool_]
+
+
+LEAD = 0.025
+"""Share of its time by which a site on its path is early or late at most, in the middle."""
+GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+"""Multiples of it, taken modulo 1, are far from each other if they follow each other."""
+
+
+def on_living_body(planned: Plan, reference: Reference, seed: int | None) -> Plan:
+    """Return a plan whose paths start and end where the reference's body has their places.
+
+    Keys are solved on a body without life. A path that starts at the chest starts a little
+    elsewhere if the chest breathes meanwhile. With a seed, no two paths take their time alike: a
+    movement that is repeated differs by 3 to 6 % of its way.
+    """
+    monitor = planned.monitor
+    chain = monitor.evaluator.rig.chain
+    seconds = np.array([float(t) for t in reference.times])
+
+    def carried(end: PathEnd) -> PathEnd:
+        q = reference.q[int(np.abs(seconds - float(end.time)).argmin())]
+        return end.carried(chain.frames(q), monitor.evaluator)
+
+    paths = {}
+    for n, (rank, path) in enumerate(sorted(monitor.paths.items())):
+        lead = 0.0 if seed is None else LEAD * (2.0 * ((n + seed) * GOLDEN % 1.0) - 1.0)
+        motion = replace(path.motion, lead=lead)
+        paths[rank] = replace(path, motion=motion, start=carried(path.start), end=carried(path.end))
+    return replace(planned, monitor=replace(monitor, paths=paths))
+
+
+def project(planned: Plan, reference: Reference, fps: float) -> Array:
+    """Return the movement (T, V) nearest to a reference that meets what is in force, smoothly."""
+    problems = FrameProblems(planned.monitor, _weights_of_unmet(planned), SolveOptions())
+    problem = problems.trajectory(reference.times, reference.q, reference.accented, fps)
+    return problem.solve(fps)
+
+
+def _weights_of_unmet(planned: Plan) -> dict[Constraint, float]:
+    """Return factors of the weights of constraints that some key posture does not meet.
+
+    Such a constraint costs as much where it is missed as there as others where they are missed by
+    their tolerance: it goes on drawing, but not at the cost of what can be met.
+    """
+    out: dict[Constraint, float] = {}
+    for posture in planned.postures:
+        for answer in posture.report.constraints:
+            if not answer.met:
+                share = (answer.tolerance / max(answer.residual, answer.tolerance)) ** 2
+                constraint = answer.task.constraint
+                out[constraint] = min(share, out.get(constraint, 1.0))
+    return out
+
+
+def inside(times: Sequence[Fraction], q: Array, frames: Frames, end: Fraction) -> MovementSamples:
+    """Return the samples of a movement from the start of the score to its end."""
+    rows = [i for i, time in enumerate(times) if 0 <= time <= end]
+    part = slice(rows[0], rows[-1] + 1) if rows else slice(0, 0)
+    return MovementSamples(tuple(times), q, frames).only(part)

@@ -1,0 +1,176 @@
+"""The trajectory problem: all postures of a movement, each with its tasks, solved at once.
+
+Postures of one movement should differ from a reference movement as smoothly as possible and meet
+the tasks of their frames. With d = x − ref, the problem is to lower
+
+    F(x) = Σ_t f_t(x_t) + Σ_v s_v |Dᵏ d_v|²
+
+where f_t is the solver's objective for the tasks of frame t and Dᵏ d_v are k-th differences of a
+coordinate's displacement in time. Projected frame by frame instead, .69 to .99 of the acceleration
+of a wrist lay above 10 Hz; all at once it keeps the reference's spectrum.
+
+A long movement is solved in windows: each goes on from the last frames of the one before, and looks
+ahead into frames that the next one solves again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_rig.machine_code import Kernel
+from azee_solver.program import Program
+
+Array = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_PROJECT = Kernel(
+    "azee_solver.kernels.trajectory",
+    "project",
+    "azee_solver.kernels",
+    "azee_solver.block",
+    "azee_rig.pointers",
+)
+
+ORDER = 2
+"""k, the order of the differences that are kept small."""
+SMOOTH_S = 0.06
+"""A displacement that lasts shorter than about this costs more in F by its differences than by its
+size: s_v = λ_v (SMOOTH_S · frames per second)²ᵏ."""
+WINDOW_S, AHEAD_S = 1.5, 0.4
+"""Length of a window, and how far it looks ahead."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """A run of Gauss-Newton steps.
+
+    misses, overlaps: factors of the costs of misses and of overlap. steps: at most so many.
+    tolerance: relative gain that ends it.
+    """
+
+    misses: float
+    overlaps: float
+    steps: int
+    tolerance: float
+
+
+STAGES = (Stage(1e-3, 1e-3, 6, 0.1), Stage(1.0, 1.0, 12, 0.02), Stage(1.0, 0.1, 6, 0.01))
+"""Soft first: a stiff start from a reference that misses by a hand's length ends in bad minima."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Refills:
+    """Numbers of programs' tapes that differ from frame to frame.
+
+    counts: (T,) how many entries of a frame's tape. entries: (T, K) which. numbers: (T, K, 5) what
+    stands there in this frame.
+    """
+
+    counts: Ints
+    entries: Ints
+    numbers: Array
+
+
+class Refilling(Protocol):
+    """Works the refills out for postures near the solution: a target may read the body."""
+
+    def __call__(self, frames: range, q: Array) -> Refills:
+        """Return the refills of some frames, in which the body has the postures q (T, V)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trajectory:
+    """The problem of a movement of T frames, all V coordinates of the rig being free.
+
+    programs: of all frames, several of which may share one. of_frame: (T,) each frame's, an index.
+    reference, keep: (T, V) radians and cost of a squared radian. fixed: (T, V) coordinates that
+    stay at the reference. smooth: (V,) s_v. overlap: cost of a squared metre of overlap.
+    """
+
+    programs: Sequence[Program]
+    of_frame: Ints
+    reference: Array
+    keep: Array
+    fixed: NDArray[np.bool_]
+    smooth: Array
+    overlap: float
+    refilled: Refilling
+
+    def solve(self, fps: float, stages: Sequence[Stage] = STAGES) -> Array:
+        """Return the postures (T, V) that lower F, inside the limits."""
+        T = len(self.reference)
+        lower, upper = self.programs[0].lower, self.programs[0].upper
+        out = np.clip(self.reference, lower, upper)
+        for start, stop in _windows(T, fps):
+            first = max(0, start - ORDER - 1)
+            out[first:stop] = self._solve_window(
+                range(first, stop), start - first, out[first:stop], stages
+            )
+        return out
+
+    def _solve_window(
+        self, frames: range, solved: int, start: Array, stages: Sequence[Stage]
+    ) -> Array:
+        """Return the postures of some frames, the first of which are solved."""
+        T, n = start.shape
+        rows = slice(frames.start, frames.stop)
+        programs = [self.programs[i] for i in self.of_frame[rows]]
+        blocks = np.array([p.compiled.block for p in programs], dtype=np.int64)
+        x, weights = np.array(start), _weights(programs)
+        reference, keep = (np.ascontiguousarray(a[rows]) for a in (self.reference, self.keep))
+        fixed = self.fixed[rows].astype(np.int64)
+        fixed[:solved] = 1
+        bands = _difference_bands(T)
+        room = [
+            np.empty((T, n, n)), np.empty((T * n, ORDER * n + 1)),
+            *(np.empty((T, n)) for _ in range(4)), np.empty((3, n)),
+        ]  # fmt: skip
+        deepest, result, spare = np.empty(T), np.empty(2), np.empty((T, n))
+        stuck = np.empty((T, n), dtype=np.int64)
+        component, members = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
+        first = self.programs[0]
+        for stage in stages:
+            refills = self.refilled(frames, x)
+            options = np.array([stage.misses, stage.overlaps * self.overlap, stage.tolerance, 1e-4])
+            _PROJECT(
+                T, n, weights.shape[1], refills.entries.shape[1], ORDER, stage.steps, blocks,
+                x, reference, keep, weights, refills.counts, refills.entries, refills.numbers,
+                bands, self.smooth, first.lower, first.upper, fixed, options, *room, deepest,
+                result, stuck, spare, component, members,
+            )  # fmt: skip
+        return x
+
+
+def _weights(programs: Sequence[Program]) -> Array:
+    """Return the weights of all rows of frames' programs, (T, R)."""
+    out = np.zeros((len(programs), max((len(p.rows) for p in programs), default=0)))
+    for row, program in zip(out, programs, strict=True):
+        row[: len(program.rows)] = program.row_weights
+    return out
+
+
+def _windows(count: int, fps: float) -> list[tuple[int, int]]:
+    """Return the first frame of each window, and one past the last that it looks at."""
+    stride, ahead = max(ORDER + 1, round(WINDOW_S * fps)), round(AHEAD_S * fps)
+    starts = [0]
+    while starts[-1] + stride + ahead < count:
+        starts.append(starts[-1] + stride)
+    stops = [min(count, b + ahead) for _, b in pairwise(starts)]
+    return [*zip(starts, [*stops, count], strict=True)]
+
+
+def _difference_bands(count: int) -> Array:
+    """Return the main and the upper diagonals of DᵀD for `ORDER`-th differences, (k + 1, T)."""
+    stencil = np.diff(np.eye(ORDER + 1), ORDER, axis=0)[0]
+    out = np.zeros((ORDER + 1, count))
+    for start in range(count - ORDER):
+        for i in range(ORDER + 1):
+            for j in range(i, ORDER + 1):
+                out[j - i, start + i] += stencil[i] * stencil[j]
+    return out

@@ -52,7 +52,7 @@ def bend_for(ways: Iterable[Way], fixed: Sequence[Interval] = ()) -> Bend:
     lacks the largest share of its time. What a way still lacks goes to its pieces of least slope,
     until these have one slope: so ways that overlap share what they need.
     """
-    ordered = sorted(ways, key=lambda w: (-w.needed_s / w.interval.duration, w.interval))
+    ordered = sorted(ways, key=lambda w: (-w.lacks, w.interval))
     if not ordered:
         return Bend()
     times = {t for w in ordered for t in (w.interval.start, w.interval.end)}

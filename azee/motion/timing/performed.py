@@ -85,30 +85,26 @@ class _Bends:
     """The bends of all rounds, and the ways that asked for them, on the score's own time line."""
 
     bends: list[Bend] = field(default_factory=list)
-    asked: dict[tuple[tuple[str, ...], tuple[str, ...]], tuple[Way, Interval]] = field(
-        default_factory=dict
-    )
+    asked: list[tuple[Way, Interval]] = field(default_factory=list)
 
     def add(self, bend: Bend, ways: Iterable[Way]) -> None:
-        """Add the next round."""
+        """Add the next round; ways between the same blocks at one time are one transition."""
         for way in ways:
-            old = Interval(self._before(way.interval.start), self._before(way.interval.end))
-            seen = self.asked.get((way.source, way.target))
-            if seen is None:
-                self.asked[way.source, way.target] = way, old
-                continue
-            first, known = seen
-            more = way.needed_s / way.interval.duration > first.needed_s / first.interval.duration
-            same = known.start <= old.end and old.start <= known.end
-            if same:
-                both = Interval(min(known.start, old.start), max(known.end, old.end))
-                self.asked[way.source, way.target] = (way if more else first), both
+            own = Interval(self._before(way.interval.start), self._before(way.interval.end))
+            for i, (known, span) in enumerate(self.asked):
+                at_once = span.start < own.end and own.start < span.end
+                if at_once and (known.source, known.target) == (way.source, way.target):
+                    whole = Interval(min(span.start, own.start), max(span.end, own.end))
+                    self.asked[i] = max(known, way, key=lambda w: w.lacks), whole
+                    break
+            else:
+                self.asked.append((way, own))
         self.bends.append(bend)
 
     def stretches(self) -> tuple[Stretch, ...]:
         """Return what takes longer in the end, in order of time."""
         out = []
-        for way, old in self.asked.values():
+        for way, old in self.asked:
             start, end = self._after(old.start), self._after(old.end)
             if end - start > old.duration:
                 out.append(Stretch(way, start, end, old.duration))

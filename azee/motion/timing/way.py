@@ -25,3 +25,8 @@ class Way:
     turn_rad: float
     source: tuple[str, ...]
     target: tuple[str, ...]
+
+    @property
+    def lacks(self) -> Fraction:
+        """How many times longer than it has it needs."""
+        return self.needed_s / self.interval.duration

@@ -109,7 +109,7 @@ def animate(
     selection = KeySelection(Limbs.of(rig.coordinates), mode)
     rate = Fraction(fps)
 
-    # Scale the score, and bend it where ways of the arms need more time.
+    # 1. Give ways their time: scale the score, and bend it where an arm has too far to go.
     postures = solver or _default_solver(rig, dominant)
     score = paced(score, 1 / Fraction(str(float(tempo))))
     performance, needed_s = Performance(score), None
@@ -118,17 +118,17 @@ def animate(
         performance = performed(score, evaluator, selection, postures, pace)
         score, needed_s = performance.score, Ways(evaluator, selection.limbs.members, pace).needed_s
 
-    # 1. Project the nested score on one time line.
+    # 2. Project the nested score on one time line.
     timeline = flatten(score)
 
-    # 2. Bind every constraint to the body: a timed task says which limbs it moves and reads.
+    # 3. Bind every constraint to the body: a timed task says which limbs it moves and reads.
     schedule = bind(timeline, rig, evaluator.binding, selection.limbs)
 
-    # 3 to 10. Solve key postures and join them to a movement.
+    # 4 to 11. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
     planned = plan(schedule, evaluator, selection, postures, frames_inside, needed_s)
 
-    # 11. Sample the movement at the clip's frames, and add trills, face, idle motion and lids.
+    # 12. Sample the movement at the clip's frames, and add trills, face, idle motion and lids.
     times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)
     q = planned.movement.sample(times)
     q, trill_shortfalls = _with_trills(q, times, schedule, planned.movement, evaluator)
@@ -139,7 +139,7 @@ def animate(
         q, weights = _with_idle_motion(q, weights, times, schedule, rig, seed)
     weights = _with_lids(weights, q, rig)
 
-    # 12. Make the clip, measure it and report.
+    # 13. Make the clip, measure it and report.
     clip = _clip(score, rig, times, q, weights, lead_s)
     excess, joint = limit_excess(q, rig.coordinates)
     report = MotionReport(

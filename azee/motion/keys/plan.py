@@ -60,16 +60,16 @@ def plan(
     """
     coordinates, limbs = evaluator.rig.coordinates, selection.limbs
 
-    # 3. Find from which placement to which each path leads.
+    # 4. Find from which placement to which each path leads.
     motions = path_motions(schedule, evaluator.binding.dominant)
     deferred = boundaries_on_paths(motions, schedule)
 
-    # 4. Solve a key posture at every boundary of blocks, in order of time; those on paths wait.
+    # 5. Solve a key posture at every boundary of blocks, in order of time; those on paths wait.
     neutral = ReturnToNeutral(schedule.posture_tasks, limbs, coordinates.idle)
     key_solver = KeyPostureSolver(coordinates, selection, solver, index_by_time(motions), neutral)
     boundaries = solve_boundaries(schedule, key_solver, evaluator.binding, deferred, needed_s)
 
-    # 5. Join the key postures to a movement, limb by limb, by minimum jerk.
+    # 6. Join the key postures to a movement, limb by limb, by minimum jerk.
     in_use = limbs_in_use(schedule, motions)
     interpolation = Interpolation(coordinates, limbs, in_use, hands_together=not selection.flat)
     monitor = ResidualMonitor(evaluator, schedule, {}, boundaries.early_ends)
@@ -77,21 +77,21 @@ def plan(
     keys = PathKeys(motions, [*boundaries.postures], in_between, interpolation, frame_times)
     joined = keys.join_boundaries()
 
-    # 6. Measure where paths start and end, in key postures, else on the joined movement.
+    # 7. Measure where paths start and end, in key postures, else on the joined movement.
     keys.anchor_paths(joined)
 
-    # 7. Solve the boundaries that lie on paths.
+    # 8. Solve the boundaries that lie on paths.
     keys.solve_deferred(deferred, joined)
 
-    # 8. Add keys at even steps along paths and behind moving targets.
+    # 9. Add keys at even steps along paths and behind moving targets.
     keys.sample_paths(joined)
     keys.sample_moving_targets()
 
-    # 9. Add a key at the worst frame of each stretch until every frame meets every constraint;
+    # 10. Add a key at the worst frame of each stretch until every frame meets every constraint;
     # in flat mode none.
     keyed = insert_keys(keys.postures, keys.in_between, interpolation, frame_times)
 
-    # 10. Lead the movement round the body where it would go through it.
+    # 11. Lead the movement round the body where it would go through it.
     movement, samples = keyed.movement, keyed.samples
     if not selection.flat:
         avoidance = CollisionAvoidance(evaluator, schedule, in_use, CapsuleOverlaps(evaluator))

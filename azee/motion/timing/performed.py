@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import reduce
-from typing import Literal, get_args
+from typing import Literal, TypeAlias, get_args
 
 from azee.motion.curves.movement import Interpolation
 from azee.motion.keys.boundaries import solve_boundaries
@@ -33,8 +33,8 @@ TIMINGS: tuple[Timing, ...] = get_args(Timing)
 
 ROUNDS = 4
 """Bending changes what ends early and what returns to neutral: ways are measured again."""
-SLACK = Fraction(102, 100)
-"""A way may lack this share of its time."""
+SLACK, SLACK_S = Fraction(102, 100), Fraction(2, 1000)
+"""A way may lack this share of its time, and this much."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,18 +130,33 @@ def performed(
     Args: solver: should remember its answers, since most postures are asked for in every round.
     """
     bends, now = _Bends(), score
+    tried: set[_Identity] = set()
     for _ in range(ROUNDS):
-        lacking = [
-            way
-            for way in _ways(now, evaluator, selection, solver, pace)
-            if way.needed_s > SLACK * way.interval.duration
-        ]
-        bend = bend_for(lacking, fixed_intervals(now))
+        lacking = [w for w in _ways(now, evaluator, selection, solver, pace) if _lacks_time(w)]
+        bendable = [w for w in lacking if _identity(w) not in tried]
+        bend = bend_for(bendable, fixed_intervals(now))
         if not bend.extra_s:
             break
-        bends.add(bend, lacking)
+        tried.update(_identity(w) for w in bendable)
+        bends.add(bend, bendable)
         now = warped(now, bend, lambda s: is_accent(s, evaluator.binding))
     return Performance(now, bends.stretches(), now.duration - score.duration)
+
+
+def _lacks_time(way: Way) -> bool:
+    has_s = way.interval.duration
+    return way.needed_s > max(SLACK * has_s, SLACK_S + has_s)
+
+
+_Identity: TypeAlias = tuple[str, tuple[str, ...], tuple[str, ...], Fraction]
+
+
+def _identity(way: Way) -> _Identity:
+    """Return what tells ways apart. One that a bend has not changed is not tried again.
+
+    Such a way lies between boundaries of an accent, which keeps its clock.
+    """
+    return way.side, way.source, way.target, way.interval.duration
 
 
 def _ways(

@@ -46,8 +46,7 @@ class Ways:
 
     def needed_s(self, before: Array, after: Array, limbs: frozenset[str]) -> float:
         """Return how long those of some limbs that are arms need between two postures, (V,)."""
-        progress = np.asarray(minimum_jerk(np.linspace(0.0, 1.0, SAMPLES)))[:, None]
-        q = before + (after - before) * progress
+        q = _between(before, after)
         sides = [s for s in SIDES if f"arm_{s}" in limbs]
         if not sides:
             return 0.0
@@ -89,15 +88,24 @@ class Ways:
     def _between(
         self, pairs: Sequence[tuple[KeyPosture, KeyPosture]], movement: Movement, side: str
     ) -> Iterator[Way]:
-        times = [np.linspace(float(a.time), float(b.time), SAMPLES) for a, b in pairs]
-        q = movement.sample(np.concatenate(times))
+        """Measure the ways between pairs of keys.
+
+        The arm moves as its curve does, and all else by minimum jerk from one posture to the other:
+        where trunk or head go to and fro in between, more time for the arm is no remedy.
+        """
+        limb = f"arm_{side}"
+        q = np.concatenate([_between(a.coordinates, b.coordinates) for a, b in pairs])
+        times = np.concatenate(
+            [np.linspace(float(a.time), float(b.time), SAMPLES) for a, b in pairs]
+        )
+        q[:, self.members[limb]] = movement.curves[limb].sample(times)
         frames = self.evaluator.rig.chain.frames(q)
         for n, (a, b) in enumerate(pairs):
             rows = slice(n * SAMPLES, (n + 1) * SAMPLES)
             part = Frames(frames.positions[rows], frames.rotations[rows])
             lasts_s = float(b.time - a.time)
             needed_s, way_m, turn_rad = self._measured(side, part, q[rows], lasts_s)
-            source, target = _named(f"arm_{side}", a, b)
+            source, target = _named(limb, a, b)
             yield Way(
                 side, Interval(a.time, b.time), _milliseconds(needed_s), way_m, turn_rad,
                 source, target,
@@ -182,6 +190,12 @@ class Ways:
         """Return whose arm a task moves, if the bone or site that it names is of one."""
         own = [s for s in SIDES if task.limb.endswith(f"_{s}") and f"arm_{s}" in task.limbs]
         return [s for s in own if f"arm_{s}" in self.members]
+
+
+def _between(before: Array, after: Array) -> Array:
+    """Return `SAMPLES` postures from one to another by minimum jerk, (SAMPLES, V)."""
+    progress = np.asarray(minimum_jerk(np.linspace(0.0, 1.0, SAMPLES)))[:, None]
+    return np.asarray(before + (after - before) * progress)
 
 
 def _named(limb: str, before: KeyPosture, after: KeyPosture) -> tuple[tuple[str, ...], ...]:

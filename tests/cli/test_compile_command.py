@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import jsonschema
 import numpy as np
@@ -239,6 +240,13 @@ def test_what_takes_longer_is_told_unless_the_times_are_to_be_exact(
     assert said in capsys.readouterr().err
     assert run(["compile", "hurried.azee", "--fps", "10", "--timing", "exact"]) == 0
     assert "longer than" not in capsys.readouterr().err
+
+
+def test_a_drawn_score_has_the_times_of_the_text_with_tracks_too() -> None:
+    Path("hurried.azee").write_text(HURRIED, encoding="utf-8")
+    assert run(["score", "hurried.azee", "--tracks", "-o", "s.eaf"]) == 0
+    slots = ElementTree.parse("s.eaf").iter("TIME_SLOT")
+    assert max(int(slot.attrib["TIME_VALUE"]) for slot in slots) == 1000
 
 
 def test_tempo_is_an_option_of_the_command_and_the_library(

@@ -64,6 +64,12 @@ def test_ways_that_overlap_share_their_extra_time() -> None:
     assert bend_for(both).extra_s == F("0.2")
 
 
+def test_what_a_way_lacks_goes_to_its_least_stretched_pieces_first() -> None:
+    bend = bend_for([way(F(0), F("0.5"), F(1)), way(F(0), F("1.5"), F("2.5"))])
+    assert after(bend, Interval(F(0), F("0.5"))) == F(1)
+    assert after(bend, Interval(F("0.5"), F("1.5"))) == F("1.5")
+
+
 def test_no_way_no_bend() -> None:
     assert bend_for([]).extra_s == 0
     assert bend_for([way(F(0), F(1), F("0.5"))])(F("0.7")) == F("0.7")

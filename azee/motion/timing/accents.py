@@ -38,6 +38,4 @@ def is_accent(score: Score, binding: Binding) -> bool:
 def _is_of_accents(constraint: Constraint, binding: Binding) -> bool:
     if not isinstance(constraint, Rotate | Trill | Morph):
         return False
-    if isinstance(constraint, Morph) and binding.is_skeletal(constraint):
-        return False
     return limb_of_constraint(constraint, binding) in ACCENTED

@@ -23,6 +23,7 @@ from azee.motion.timing.accents import is_accent
 from azee.motion.timing.pace import PEAK_ACCELERATION, PEAK_SPEED, Pace
 from azee.motion.timing.remembering import RememberingSolver
 from azee.motion.timing.ways import Ways
+from azee.quality import signing_dynamics as recordings
 from azee.quality.outcome import longer
 from azee.score.interval import Interval
 from azee.score.score import Block, Group, Hold, Key, Score, leaves
@@ -56,6 +57,18 @@ NEAR = Place(PALM, WorldPoint(-0.35, 1.2, 0.3))
 @cache
 def rig() -> Rig:
     return load_rig()
+
+
+SCALE = Ways(evaluator(rig(), Side.RIGHT), Limbs.of(rig().coordinates).members, Pace()).scale
+
+
+def test_a_body_of_another_size_takes_the_time_of_the_signer() -> None:
+    child = load_rig("child")
+    measure = Ways(evaluator(child, Side.RIGHT), Limbs.of(child.coordinates).members, Pace())
+    assert measure.scale > 1.1 * SCALE
+    arms = [child.bones[f"arm_{s}"].origin_node for s in "LR"]
+    left, right = child.chain.frames(child.coordinates.idle).positions[arms]
+    assert measure.scale * np.linalg.norm(left - right) == pytest.approx(recordings.SHOULDERS_M)
 
 
 def block(name: str, start: str, length: str, *constraints: Constraint) -> Block:
@@ -140,7 +153,7 @@ def test_at_the_time_needed_the_wrist_is_as_fast_as_the_pace_allows() -> None:
     q = before + (after - before) * np.asarray(minimum_jerk(at))[:, None]
     wrist = rig().chain.frames(q).positions[:, rig().bones["palm_R"].origin_node]
     speed = np.linalg.norm(np.diff(wrist, axis=0), axis=1).max() * 2000 / needed_s
-    assert speed == pytest.approx(2.0, rel=0.01)
+    assert ways.scale * speed == pytest.approx(2.0, rel=0.01)
     assert ways.needed_s(before, after, frozenset(("arm_L",))) == 0.0
     assert ways.needed_s(before, after, frozenset(("head",))) == 0.0
 
@@ -214,7 +227,7 @@ def test_where_half_a_block_was_its_core_another_round_gives_the_rest() -> None:
 def test_a_short_way_gets_time_to_gather_speed() -> None:
     score = sync(block("A", "0", ".3", RIGHT), block("B", ".35", ".3", NEAR))
     (stretch,) = played(score).report.stretched
-    by_speed_s = 1.875 * stretch.way.way_m / 2.0
+    by_speed_s = 1.875 * SCALE * stretch.way.way_m / 2.0
     assert float(stretch.way.needed_s) > 1.3 * by_speed_s
     assert largest(played(score))[1] < 44
     assert largest(played(score, "exact"))[1] > 80
@@ -257,7 +270,7 @@ def test_a_path_inside_a_sign_gets_time_too() -> None:
         block("B", ".5", ".3", RIGHT),
     )
     start, end = times(played(score).score)["WAY"]
-    assert end - start == pytest.approx(1.875 * 0.5 / 2.0, rel=0.1)
+    assert end - start == pytest.approx(1.875 * SCALE * 0.5 / 2.0, rel=0.01)
 
 
 def test_a_moving_target_gets_time_too() -> None:
@@ -269,7 +282,8 @@ def test_a_moving_target_gets_time_too() -> None:
     (stretch,) = animation.report.stretched
     assert stretch.way.target == ("B",)
     assert stretch.way.way_m == pytest.approx(2 * math.pi * 0.08, rel=0.01)
-    assert float(stretch.performed_s) == pytest.approx(1.875 * stretch.way.way_m / 2.0, abs=0.01)
+    least_s = 1.875 * SCALE * stretch.way.way_m / 2.0
+    assert float(stretch.performed_s) == pytest.approx(least_s, abs=0.01)
 
 
 def test_fixed_parts_keep_their_length() -> None:

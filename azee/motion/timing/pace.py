@@ -15,6 +15,8 @@ PEAK_SPEED = 15.0 / 8.0
 """Largest |s′| of s(τ) = 10τ³ − 15τ⁴ + 6τ⁵ over 0 ≤ τ ≤ 1."""
 PEAK_ACCELERATION = 10.0 / math.sqrt(3.0)
 """Largest |s″| of the same."""
+SHOULDERS_M = 0.36
+"""Limits are those of a body whose shoulders are so far apart, as speeds of recordings are."""
 
 
 @dataclass(frozen=True, slots=True)

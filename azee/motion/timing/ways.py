@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -17,7 +18,7 @@ from azee.motion.keys.transpath import AnchoredPath, PathMotion
 from azee.motion.tasks.key_posture import KeyPosture
 from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
-from azee.motion.timing.pace import Pace
+from azee.motion.timing.pace import SHOULDERS_M, Pace
 from azee.motion.timing.way import Way
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
@@ -36,13 +37,25 @@ _AT_ONCE = 64
 """Ways that are measured at once: memory stays bounded in long texts."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Ways:
-    """Measures ways on one body, at one pace."""
+    """Measures ways on one body, at one pace.
+
+    members: the coordinates of every limb. One text takes about the same time on bodies of any
+    size: lengths count as if the shoulders were `SHOULDERS_M` apart.
+    """
 
     evaluator: Evaluator
     members: Mapping[str, NDArray[np.int64]]
     pace: Pace
+
+    @cached_property
+    def scale(self) -> float:
+        """How many times larger a body is whose shoulders are `SHOULDERS_M` apart."""
+        rig = self.evaluator.rig
+        joints = [rig.bones[f"arm_{s}"].origin_node for s in SIDES]
+        left, right = rig.chain.frames(rig.coordinates.idle).positions[joints]
+        return SHOULDERS_M / float(np.linalg.norm(left - right))
 
     def needed_s(self, before: Array, after: Array, limbs: frozenset[str]) -> float:
         """Return how long those of some limbs that are arms need between two postures, (V,)."""
@@ -124,8 +137,8 @@ class Ways:
         step_s = lasts_s / (len(q) - 1)
         bends = np.linalg.norm(np.diff(wrist, 2, axis=0), axis=1)
         stretch = self.pace.stretch(
-            float(steps.max()) / step_s,
-            float(bends.max()) / step_s**2,
+            self.scale * float(steps.max()) / step_s,
+            self.scale * float(bends.max()) / step_s**2,
             float(np.abs(np.diff(arm, axis=0)).max()) / step_s,
         )
         return stretch * lasts_s, float(steps.sum()), float(np.abs(arm[-1] - arm[0]).max())
@@ -182,7 +195,7 @@ class Ways:
         for side in sides:
             arm = self.members[f"arm_{side}"]
             turn_rad = float(np.abs(ends[1, arm] - ends[0, arm]).max())
-            needed_s = self.pace.least_s(way_m, turn_rad)
+            needed_s = self.pace.least_s(self.scale * way_m, turn_rad)
             if math.isfinite(needed_s):
                 yield Way(side, interval, _milliseconds(needed_s), way_m, turn_rad, source, target)
 

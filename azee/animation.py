@@ -32,11 +32,16 @@ from azee.motion.tasks.key_selection import MODES, KeySelection, Mode
 from azee.motion.tasks.limbs import Limbs
 from azee.motion.tasks.schedule import TaskSchedule, bind
 from azee.motion.tasks.tracks import Track, tracks
+from azee.motion.timing.pace import Pace
+from azee.motion.timing.performed import TIMINGS, Performance, Timing, performed
+from azee.motion.timing.remembering import RememberingSolver
+from azee.motion.timing.ways import Ways
 from azee.quality.likeness import likeness
 from azee.quality.measures import PenetrationSearch, block_times, peaks
 from azee.quality.motion_report import MotionReport, constraint_results, limit_excess
 from azee.quality.task_spans import task_spans
 from azee.score.score import Score
+from azee.score.stretch import paced
 from azee_rig.rig import Rig
 from azee_solver.evaluate import Evaluator
 from azee_solver.evaluate import evaluator as evaluator_of
@@ -48,16 +53,21 @@ from azee_solver.task import Task
 
 Array = NDArray[np.float64]
 
+PACE = Pace()
+"""How fast arms go by default."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Animation:
     """A clip with its report.
 
-    key_times: of all key postures, on the clip's time line. lead_s: when the score's time line
-    starts in the clip; before, the signer stands in the neutral posture and moves into the first
-    key posture. tracks: which block keys what, on the score's time line.
+    score: as performed; all times are those of its time line. key_times: of all key postures, on
+    the clip's time line. lead_s: when the score's time line starts in the clip; before, the signer
+    stands in the neutral posture and moves into the first key posture. tracks: which block keys
+    what, on the score's time line.
     """
 
+    score: Score
     clip: Clip
     report: MotionReport
     key_times: tuple[float, ...]
@@ -75,16 +85,27 @@ def animate(
     seed: int = 0,
     life: bool = True,
     solver: PostureSolver | None = None,
+    timing: Timing | None = None,
+    tempo: float = 1.0,
+    pace: Pace = PACE,
 ) -> Animation:
     """Make a body play a score.
 
     Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
         blinks, breaths and sway. life: whether to add these. solver: what solves key
-        postures; `azee_solver.solve` if none is given.
+        postures; `azee_solver.solve` if none is given. timing: whether ways that are too long for
+        their time get more of it; by default they do in tracks and not in flat mode. tempo: how
+        many times faster all is that is not fixed. pace: how fast arms go.
     What names a bone, site or morph that the rig lacks is left out.
 
-    Raises: ValueError: an unknown mode or a frame rate that is none.
+    Raises: ValueError: an unknown mode or timing, or a frame rate or tempo that is none.
     """
+    if timing is None:
+        timing = "exact" if mode == "flat" else "performed"
+    if timing not in TIMINGS:
+        raise ValueError(f"there is no timing '{timing}'; the timings are: {', '.join(TIMINGS)}")
+    if not (math.isfinite(tempo) and tempo > 0):
+        raise ValueError(f"nobody signs {tempo} times as fast")
     if mode not in MODES:
         raise ValueError(f"there is no mode '{mode}'; the modes are: {', '.join(MODES)}")
     if not (math.isfinite(fps) and fps > 0):
@@ -94,23 +115,30 @@ def animate(
     rate = Fraction(fps)
     layered = not selection.flat
 
-    # 1. Project the nested score on one time line.
+    # 1. Give ways their time: scale the score, and bend it where an arm has too far to go.
+    postures = solver or _default_solver(rig, dominant)
+    score = paced(score, 1 / Fraction(str(float(tempo))))
+    performance, needed_s = Performance(score), None
+    if timing == "performed":
+        postures = RememberingSolver(postures)
+        performance = performed(score, evaluator, selection, postures, pace)
+        score, needed_s = performance.score, Ways(evaluator, selection.limbs.members, pace).needed_s
+
+    # 2. Project the nested score on one time line.
     timeline = flatten(score)
 
-    # 2. Bind every constraint to the body: a timed task says which limbs it moves and reads.
+    # 3. Bind every constraint to the body: a timed task says which limbs it moves and reads.
     schedule = bind(timeline, rig, evaluator.binding, selection.limbs, layered=layered)
 
-    # 3 to 9. Solve key postures and join them to a movement.
+    # 4 to 10. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
-    planned = plan(
-        schedule, evaluator, selection, solver or _default_solver(rig, dominant), frames_inside
-    )
+    planned = plan(schedule, evaluator, selection, postures, frames_inside, needed_s)
 
-    # 10. Sample the movement at the clip's frames, and lay accents and life on it.
+    # 11. Sample the movement at the clip's frames, and lay accents and life on it.
     times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)
     reference = _with_layers(planned, schedule, times, seed if life else None, layered=layered)
 
-    # 11. Draw it onto the constraints in force; in flat mode it stays as it is.
+    # 12. Draw it onto the constraints in force; in flat mode it stays as it is.
     if layered:
         planned = on_living_body(planned, reference, seed if life else None)
         q = project(planned, reference, float(fps))
@@ -118,7 +146,7 @@ def animate(
         q = np.clip(reference.q, rig.coordinates.lower, rig.coordinates.upper)
     samples = inside(times, q, rig.chain.frames(q), score.duration)
 
-    # 12. Add trills, the face, blinks, and lids that follow the eyes.
+    # 13. Add trills, the face, blinks, and lids that follow the eyes.
     seconds = np.array([float(time) for time in times])
     shortfalls = accent_shortfalls(schedule.accents, reference.q, q, seconds, evaluator)
     q, trill_shortfalls = _with_trills(q, seconds, schedule, evaluator)
@@ -132,7 +160,7 @@ def animate(
         )  # fmt: skip
     weights = saturated(_with_lids(weights, q, rig), rig)
 
-    # 13. Make the clip, measure it and report.
+    # 14. Make the clip, measure it and report.
     clip = _clip(score, rig, seconds, q, weights, lead_s)
     excess, joint = limit_excess(q, rig.coordinates)
     report = MotionReport(
@@ -165,10 +193,14 @@ def animate(
             zero_s=lead_s,
             dominant=dominant,
         ),
+        timing=timing,
+        tempo=float(tempo),
+        stretched=performance.stretched,
+        extra_s=float(performance.extra_s),
     )
     key_times = tuple(float(p.time) + lead_s for p in planned.postures)
     by_block = tracks(schedule, planned.postures, selection, rig.coordinates)
-    return Animation(clip, report, key_times, lead_s, by_block)
+    return Animation(score, clip, report, key_times, lead_s, by_block)
 
 
 def _default_solver(rig: Rig, dominant: Side) -> PostureSolver:

@@ -14,6 +14,8 @@ from typing import TypeGuard, cast
 
 SLOWEST_FPS = 1.0
 """Fewer frames a second show no movement."""
+SLOWEST_TEMPO, FASTEST_TEMPO = 0.1, 10.0
+"""Factors of speed beyond which nothing is left of a sign."""
 
 
 def require_one_of(value: object, known: Sequence[str], one: str, all_of_them: str) -> None:
@@ -31,6 +33,15 @@ def rate(value: object) -> float:
             return cast("float", value) if exact else float(value)
     told = f"{shown(value)} frames per second make no clip"
     raise ValueError(f"{told}; fps is a number from 1 on, such as 25 or 30")
+
+
+def require_tempo(value: object) -> None:
+    """Require a factor of speed. Raises: ValueError."""
+    if not (_is_number(value) and SLOWEST_TEMPO <= float(value) <= FASTEST_TEMPO):
+        raise ValueError(
+            f"nobody signs {shown(value)} times as fast; tempo is a number "
+            f"from {SLOWEST_TEMPO:g} to {FASTEST_TEMPO:g}, such as 1.2"
+        )
 
 
 def require_seed(value: object) -> None:

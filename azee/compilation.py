@@ -14,6 +14,7 @@ from azee.arguments import (
     require_one_of,
     require_seed,
     require_switch,
+    require_tempo,
     require_text,
 )
 from azee.formats import WRITERS, write_elan, writing
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from azee.clip.clip import Clip
     from azee.lang.program import Program
     from azee.motion.tasks.key_selection import Mode
+    from azee.motion.timing.performed import Timing
     from azee.quality.motion_report import MotionReport
     from azee.score.score import Score
     from azee_grammar.source import Source
@@ -43,9 +45,10 @@ class Compilation:
     It can be pickled and copied. A pickle leaves out the body's surface, which is read from the
     body's folder when a file or a picture needs it.
 
-    score: nested blocks of constraints; times in seconds. rig: the body. animation: the clip and
-    the report, and the times of the keys of every part of the body. left_out: a warning for each
-    name of a bone, site or morph that the body lacks; constraints with that name were left out.
+    score: nested blocks of constraints; times in seconds, as performed. rig: the body. animation:
+    the clip and the report, and the times of the keys of every part of the body. left_out: a
+    warning for each name of a bone, site or morph that the body lacks; constraints with that name
+    were left out.
     """
 
     score: Score
@@ -119,6 +122,8 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     life: bool = True,
     solver: Method = "grouped",
     strict_body: bool = False,
+    timing: Timing | None = None,
+    tempo: float = 1.0,
 ) -> Compilation:
     """Compile AZee to a signing body.
 
@@ -143,6 +148,10 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
             together. two-level: the iteration of Nunnari et al. 2018, for comparison.
         strict_body: whether to refuse a text that names a bone, site or morph that the body lacks.
             By default such constraints are left out, with a warning for each name in `left_out`.
+        timing: performed: where an arm has too far to go for its time, the score gets longer, and
+            the report tells where. exact: all times are the text's. By default performed; exact in
+            flat mode.
+        tempo: how many times faster all is that is not `fixed`, such as 1.2.
     Raises: AZeeError: the text has mistakes, or has no such utterance; cannot-read: there is no
             such file; rig-lacks-bone, rig-lacks-site, rig-lacks-morph: the rig lacks something
             that the text names, and `strict_body` is set; clip-times: the
@@ -155,7 +164,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     from azee_rig.rig import Rig
 
     require_text(text_or_path, expression, utterance)
-    _require_options(dominant, fps, mode, seed, life, solver)
+    _require_options(dominant, fps, mode, seed, life, solver, timing, tempo)
     found = folders(libraries)
     body = rig if isinstance(rig, Rig) else load_rig(rig)
     program = load(_source(text_or_path), found)
@@ -170,6 +179,8 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         life=life,
         solver=solver,
         strict_body=strict_body,
+        timing=timing,
+        tempo=tempo,
     )
 
 
@@ -199,6 +210,8 @@ def perform(
     life: bool = True,
     solver: Method = "grouped",
     strict_body: bool = False,
+    timing: Timing | None = None,
+    tempo: float = 1.0,
 ) -> Compilation:
     """Make a body play a score. The options are those of `compile`.
 
@@ -209,13 +222,13 @@ def perform(
     from azee.animation import animate
     from azee.clip.resample import TooManyFramesError, frame_count
 
-    _require_options(dominant, fps, mode, seed, life, solver)
+    _require_options(dominant, fps, mode, seed, life, solver, timing, tempo)
     require_switch(strict_body, "strict_body")
     missing = lacks(score, rig, dominant, strict=strict_body)
     if missing and strict_body:
         raise AZeeError(*missing)
     try:
-        frame_count(float(score.duration), fps)
+        frame_count(float(score.duration) / tempo, fps)
     except TooManyFramesError as error:
         hint = "give fewer --fps, or compile one --utterance at a time"
         raise AZeeError(Diagnostic("clip-times", str(error), None, help=hint)) from error
@@ -226,21 +239,41 @@ def perform(
 
         postures = two_level_solver(rig, side)
     animation = animate(
-        score, rig, fps=rate(fps), dominant=side, mode=mode, seed=seed, life=life, solver=postures
+        score,
+        rig,
+        fps=rate(fps),
+        dominant=side,
+        mode=mode,
+        seed=seed,
+        life=life,
+        solver=postures,
+        timing=timing,
+        tempo=float(tempo),
     )
-    return Compilation(score, rig, animation, missing)
+    return Compilation(animation.score, rig, animation, missing)
 
 
 def _require_options(
-    dominant: object, fps: object, mode: object, seed: object, life: object, solver: object
+    dominant: object,
+    fps: object,
+    mode: object,
+    seed: object,
+    life: object,
+    solver: object,
+    timing: object,
+    tempo: object,
 ) -> None:
     """Raise ValueError for the first option with a wrong value or type."""
     from azee.motion.tasks.key_selection import MODES
+    from azee.motion.timing.performed import TIMINGS
 
     require_one_of(dominant, get_args(Hand), "dominant hand", "hands")
     require_one_of(mode, MODES, "mode", "modes")
     require_one_of(solver, get_args(Method), "solver", "solvers")
+    if timing is not None:
+        require_one_of(timing, TIMINGS, "timing", "timings")
     rate(fps)
+    require_tempo(tempo)
     require_seed(seed)
     require_switch(life, "life")
 

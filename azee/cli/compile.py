@@ -14,7 +14,7 @@ from azee.cli.number import Number
 from azee.cli.outcome import outcome_lines
 from azee.cli.outputs import check_media, check_outputs, with_suffix
 from azee.cli.profile import Profile
-from azee.cli.text import Text, dominant_option, text_options
+from azee.cli.text import Text, dominant_option, text_options, timing_options
 from azee.compilation import perform
 from azee.formats import FILM_SUFFIXES, WRITERS
 from azee_grammar.diagnostic import AZeeError
@@ -22,6 +22,7 @@ from azee_grammar.diagnostic import AZeeError
 if TYPE_CHECKING:
     from azee.compilation import Hand, Method
     from azee.motion.tasks.key_selection import Mode
+    from azee.motion.timing.performed import Timing
 
 
 @click.command("compile", short_help="A text as a moving body: GLB, BVH, films and more.")
@@ -68,6 +69,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="How postures are found; two-level: the iterations of the 2018 paper, for comparison.",
 )
+@timing_options
 @click.option("--no-life", is_flag=True, help="No breathing, no blinking and no sway.")
 @click.option(
     "--report",
@@ -103,6 +105,8 @@ def compile_(
     dominant: Hand,
     mode: Mode,
     solver: Method,
+    timing: Timing | None,
+    tempo: float,
     no_life: bool,
     report: Path | None,
     strict_body: bool,
@@ -143,6 +147,8 @@ def compile_(
                     life=not no_life,
                     solver=solver,
                     strict_body=strict_body,
+                    timing=timing,
+                    tempo=tempo,
                 )
             watch.split(made.report)
             for path in outputs:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from azee.cli.outputs import size_of
-from azee.quality.outcome import misses, outcome, shortfall
+from azee.quality.outcome import longer, misses, outcome, shortfall
 from azee.wording import counted
 
 if TYPE_CHECKING:
@@ -16,12 +16,13 @@ if TYPE_CHECKING:
 
 
 def outcome_lines(made: Compilation, written: Sequence[Path]) -> str:
-    """Return the lines: length, key postures, misses with their reasons, files."""
+    """Return the lines: length, key postures, longer transitions, misses with reasons, files."""
     report = made.report
     length = f"{report.duration_s:.2f} s at {report.fps:g} frames a second"
     missed = misses(report)
     lines = [
         f"{length}, {counted(len(report.postures), 'key posture')}",
+        *longer(report),
         *_iterations(made),
         outcome(report) + (":" if missed else ""),
         *map(_miss, missed),

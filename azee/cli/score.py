@@ -88,4 +88,5 @@ def _tracks(found: Score, rig: str, dominant: Hand, mode: Mode) -> Sequence[Trac
 
     body = load_body(rig)
     with working("Solving …"):
-        return perform(found, body, dominant=dominant, mode=mode, life=False).animation.tracks
+        made = perform(found, body, dominant=dominant, mode=mode, life=False, timing="exact")
+    return made.animation.tracks

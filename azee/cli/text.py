@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from azee.arguments import FASTEST_TEMPO, SLOWEST_TEMPO
+from azee.cli.number import Number
+
 if TYPE_CHECKING:
     from azee.compilation import Hand
     from azee.lang.program import Program
@@ -43,6 +46,24 @@ dominant_option = click.option(
     help="The signer's strong hand.",
 )
 """`--dominant HAND`, of every command that tells strong and weak apart."""
+
+
+def timing_options(command: Command) -> Command:
+    """Add the options --timing and --tempo to a command that makes a text move."""
+    timing = click.option(
+        "--timing",
+        type=click.Choice(["performed", "exact"]),
+        help="performed: a hand that has too far to go for its time gets more. exact: all times "
+        "are the text's. By default performed, with --mode flat exact.",
+    )
+    tempo = click.option(
+        "--tempo",
+        type=Number(SLOWEST_TEMPO, FASTEST_TEMPO),
+        default=1,
+        show_default=True,
+        help="How many times faster all is that is not fixed.",
+    )
+    return timing(tempo(command))
 
 
 def text_options(command: Command) -> Command:

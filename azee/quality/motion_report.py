@@ -15,6 +15,7 @@ from azee.motion.keys.plan import Plan
 from azee.motion.keys.residual_monitor import TOLERANCE, MovementSamples
 from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
+from azee.motion.timing.performed import Stretch
 from azee.quality.likeness import Likeness
 from azee.quality.measures import CoordinatePeaks, Penetration
 from azee_rig.coordinates import Coordinates
@@ -83,7 +84,8 @@ class MotionReport:
 
     blocks: their times, and until when their constraints hold. peaks: largest speed, acceleration
     and jerk of the coordinates that move. measure_penetration: measures it in every frame.
-    measure_likeness: takes the figures of likeness.
+    measure_likeness: takes the figures of likeness. stretched: what takes longer than the score
+    says. extra_s: by how much all does. Other times are those of the score as performed.
     """
 
     rig: str
@@ -100,6 +102,10 @@ class MotionReport:
     measure_peaks: Callable[[], tuple[CoordinatePeaks, ...]]
     measure_penetration: Callable[[], tuple[Penetration, ...]]
     measure_likeness: Callable[[], Likeness]
+    timing: str = "exact"
+    tempo: float = 1.0
+    stretched: tuple[Stretch, ...] = ()
+    extra_s: float = 0.0
 
     @cached_property
     def constraints(self) -> tuple[ConstraintResult, ...]:
@@ -147,9 +153,12 @@ class MotionReport:
             "rig": self.rig,
             "fps": self.fps,
             "mode": self.mode,
+            "timing": self.timing,
+            "tempo": self.tempo,
             "duration_s": self.duration_s,
             "lead_s": self.lead_s,
             "score_s": self.score_s,
+            "stretched": [s.as_json() for s in self.stretched],
             "keyframes": [_keyframe(p) for p in self.postures],
             "problems": [row for p in self.postures if not p.reused for row in _problems(p)],
             "evaluations": self.evaluations,

@@ -24,6 +24,16 @@ def outcome(report: MotionReport) -> str:
     return f"{some} {'is' if missed == 1 else 'are'} out of tolerance"
 
 
+def longer(report: MotionReport) -> list[str]:
+    """Return `2 transitions are longer than the score says, by 0.31 s in all; …`, or nothing."""
+    many = len(report.stretched)
+    if not many:
+        return []
+    are, in_all = ("is", "") if many == 1 else ("are", " in all")
+    longer = f"{counted(many, 'transition')} {are} longer than the score says"
+    return [f"{longer}, by {report.extra_s:.2f} s{in_all}; --timing exact keeps its times"]
+
+
 def misses(report: MotionReport) -> list[ConstraintResult]:
     """Return the constraints that are out of tolerance."""
     return [result for result in report.constraints if not result.met]

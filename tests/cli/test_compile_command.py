@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import jsonschema
 import numpy as np
@@ -216,3 +217,48 @@ def test_a_rig_that_lacks_a_name_signs_the_rest_or_is_refused() -> None:
     assert "left out" in warning.message
     assert made.report_json()["left_out"] == [{"code": warning.code, "message": warning.message}]
     assert not [c for c in made.report.constraints if "@CH" in c.target]
+
+
+HURRIED = """\
+sync
+    'A (key .4 (place @PA(s) point(.1, -.1, .28)))
+    'B (key .4 (place @PA(s) point(-.4, -.1, .28)))
+    'start 'A:end:.2
+"""
+"""Half a metre in .2 s."""
+
+
+def test_what_takes_longer_is_told_unless_the_times_are_to_be_exact(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    Path("hurried.azee").write_text(HURRIED, encoding="utf-8")
+    assert run(["compile", "hurried.azee", "--fps", "10", "--report", "r.json"]) == 0
+    (stretch,) = json.loads(Path("r.json").read_text(encoding="utf-8"))["stretched"]
+    assert (stretch["from"], stretch["to"], stretch["hand"]) == (["A"], ["B"], "right")
+    extra_s = stretch["performed_s"] - stretch["score_s"]
+    said = f"1 transition is longer than the score says, by {extra_s:.2f} s; --timing exact keeps"
+    assert said in capsys.readouterr().err
+    assert run(["compile", "hurried.azee", "--fps", "10", "--timing", "exact"]) == 0
+    assert "longer than" not in capsys.readouterr().err
+
+
+def test_a_drawn_score_has_the_times_of_the_text_with_tracks_too() -> None:
+    Path("hurried.azee").write_text(HURRIED, encoding="utf-8")
+    assert run(["score", "hurried.azee", "--tracks", "-o", "s.eaf"]) == 0
+    slots = ElementTree.parse("s.eaf").iter("TIME_SLOT")
+    assert max(int(slot.attrib["TIME_VALUE"]) for slot in slots) == 1000
+
+
+def test_tempo_is_an_option_of_the_command_and_the_library(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert run(["compile", "two.azee", "--tempo", "2", "--report", "r.json", "--fps", "10"]) == 0
+    report = json.loads(Path("r.json").read_text(encoding="utf-8"))
+    assert (report["tempo"], report["score_s"]) == (2.0, azee.compile(TWO).report.score_s / 2)
+    assert azee.compile(TWO, tempo=2).score.duration == azee.compile(TWO).score.duration / 2
+    assert run(["compile", "two.azee", "--tempo", "0"]) == 2
+    assert "--tempo" in capsys.readouterr().err
+    with pytest.raises(ValueError, match=r"nobody signs 0 times as fast; tempo is a number from"):
+        azee.compile(TWO, tempo=0)
+    with pytest.raises(ValueError, match="there is no timing 'loose'; the timings are: performed"):
+        azee.compile(TWO, timing="loose")  # type: ignore[arg-type]

@@ -231,6 +231,8 @@ def test_what_cannot_be_drawn_is_said_in_one_message(
         "-o w.png -e :arbre": 2,
         "-o w.png --utterance 2": 2,
         "-o w.png --no-life": 2,
+        "-o w.png --timing exact": 2,
+        "-o w.png --tempo 2": 2,
         "-o w.png -o ./w.png": 2,
         "-o nowhere/w.png": 1,
     }

@@ -45,13 +45,13 @@ def test_the_code_takes_the_steps_of_the_page_in_its_order() -> None:
     of_animate, calls_of_animate = body_of("animate", animation)
     of_plan, calls_of_plan = body_of("plan", plan)
     documented = steps()
-    assert [*documented] == [*range(1, 14)]
-    later = [(str(n), "") for n in range(10, 14)]
-    assert NUMBER.findall(of_animate) == [("1", ""), ("2", ""), ("3", "9"), *later]
-    assert NUMBER.findall(of_plan) == [(str(n), "") for n in range(3, 10)]
+    assert [*documented] == [*range(1, 15)]
+    later = [(str(n), "") for n in range(11, 15)]
+    assert NUMBER.findall(of_animate) == [("1", ""), ("2", ""), ("3", ""), ("4", "10"), *later]
+    assert NUMBER.findall(of_plan) == [(str(n), "") for n in range(4, 11)]
     for numbers, calls in (
-        ((1, 2, 10, 11, 12, 13), calls_of_animate),
-        (range(3, 10), calls_of_plan),
+        ((1, 2, 3, 11, 12, 13, 14), calls_of_animate),
+        (range(4, 11), calls_of_plan),
     ):
         named = [name for n in numbers for name in documented[n]]
         assert [call for call in calls if call in named] == named

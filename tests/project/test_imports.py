@@ -50,6 +50,11 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee.clip", "azee.score", "azee.motion.tasks", "azee.motion.curves"),
         *("azee_solver", "azee_rig", "numpy"),
     },
+    "azee.motion.timing": {
+        *("azee.clip", "azee.score"),
+        *("azee.motion.tasks", "azee.motion.curves", "azee.motion.keys"),
+        *("azee_solver", "azee_rig", "numpy"),
+    },
     "azee.motion.overlay": {
         *("azee.clip", "azee.score", "azee.motion.tasks"),
         *("azee_solver", "azee_rig", "numpy"),

@@ -4,14 +4,20 @@ Where a block ends at the instant at which another begins, one posture serves bo
 different postures cannot share an instant: a block holds on [start, end), so the instant belongs
 to the block that begins, exactly on its time. The block that ends has its last key earlier, by the
 time that the transition between the two postures needs, but by no more than half its own length.
-The report names such early ends.
+Where times may bend, it ends as early as an arm needs for its way, but keeps a core. The report
+names such early ends.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from azee.motion.curves.limb_curves import transition_s
 from azee.motion.keys.key_posture_solver import KeyPostureSolver
@@ -35,6 +41,12 @@ from azee_solver.constraint import Constraint
 LOOK_AHEAD_S = Fraction(3, 20)
 """Head and trunk take the posture of what begins within this time."""
 SHORTEST_EARLY_END_S = Fraction(1, 12)
+CORE_S = Fraction(3, 20)
+"""What stays of a block that gives time to the way after it."""
+
+Array = NDArray[np.float64]
+NeededTime: TypeAlias = Callable[[Array, Array, frozenset[str]], float]
+"""Seconds that some limbs need from one posture to another, (V,) radians each."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,8 +68,12 @@ def solve_boundaries(
     solver: KeyPostureSolver,
     binding: Binding,
     deferred: frozenset[Fraction],
+    needed_s: NeededTime | None = None,
 ) -> Boundaries:
-    """Solve a key posture at every boundary of blocks, but for the deferred ones on paths."""
+    """Solve a key posture at every boundary of blocks, but for the deferred ones on paths.
+
+    Args: needed_s: what a block that ends early leaves for the way; a quick transition by default.
+    """
     postures: list[KeyPosture] = []
     early_ends: dict[int, EarlyEnd] = {}
     for keyframe in schedule.timeline.keyframes:
@@ -71,7 +87,7 @@ def solve_boundaries(
         if posture is None:
             posture = _shared(time, opening, closing, solver, binding)
         if posture is None:
-            postures += _separate(time, opening, closing, solver, early_ends)
+            postures += _separate(time, opening, closing, solver, early_ends, needed_s)
         else:
             postures.append(solver.accept(posture))
     return Boundaries(tuple(postures), early_ends)
@@ -138,6 +154,7 @@ def _separate(
     closing: Sequence[TimedTask],
     solver: KeyPostureSolver,
     early_ends: dict[int, EarlyEnd],
+    needed_s: NeededTime | None,
 ) -> list[KeyPosture]:
     """Solve what begins on time, and give what ends there an earlier last key.
 
@@ -151,7 +168,7 @@ def _separate(
     after = solver.solve(time, [*opening, *staying])
     lasting = [t for t in [*opening, *staying] if t.interval.start < time]
     before = solver.solve(time, [*ending, *lasting], Origin.EARLY_END, ending)
-    end = time - _transition_s(before, after, ending, solver)
+    end = time - _transition_s(before, after, ending, solver, needed_s)
     last_time = solver.last.time if solver.last is not None else None
     out: list[KeyPosture] = []
     if last_time is None or end > last_time:
@@ -166,15 +183,27 @@ def _separate(
 
 
 def _transition_s(
-    before: KeyPosture, after: KeyPosture, ending: Sequence[TimedTask], solver: KeyPostureSolver
+    before: KeyPosture,
+    after: KeyPosture,
+    ending: Sequence[TimedTask],
+    solver: KeyPostureSolver,
+    needed_s: NeededTime | None,
 ) -> Fraction:
     """Time for the transition between two postures: how much earlier a block ends.
 
-    That of its slowest limb, at least `SHORTEST_EARLY_END_S`, at most half the shortest block.
+    That of its slowest limb, at least `SHORTEST_EARLY_END_S`, at most half the shortest block. An
+    arm that needs longer gets all of the block but its core.
     """
+    leaving = limbs_used(ending)
     slowest = max(
         transition_s(before.coordinates[members], after.coordinates[members])
-        for members in (solver.limbs.members[limb] for limb in limbs_used(ending))
+        for members in (solver.limbs.members[limb] for limb in leaving)
     )
     wanted = max(SHORTEST_EARLY_END_S, Fraction(round(slowest * 1000), 1000))
-    return min(wanted, min(t.interval.duration for t in ending) / 2)
+    shortest = min(t.interval.duration for t in ending)
+    most = shortest / 2
+    if needed_s is not None:
+        needed = needed_s(before.coordinates, after.coordinates, leaving)
+        wanted = max(wanted, Fraction(math.ceil(needed * 1000), 1000))
+        most = max(most, shortest - CORE_S)
+    return min(wanted, most)

@@ -12,7 +12,7 @@ from fractions import Fraction
 from azee.motion.curves.avoidance import CollisionAvoidance
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.movement import Interpolation, Movement
-from azee.motion.keys.boundaries import solve_boundaries
+from azee.motion.keys.boundaries import NeededTime, solve_boundaries
 from azee.motion.keys.in_between import InBetweenSolver
 from azee.motion.keys.key_posture_solver import KeyPostureSolver
 from azee.motion.keys.neutral import ReturnToNeutral
@@ -49,40 +49,44 @@ def plan(
     selection: KeySelection,
     solver: PostureSolver,
     frame_times: Sequence[Fraction],
+    needed_s: NeededTime | None = None,
 ) -> Plan:
-    """Plan the movement that meets a schedule at the given frames inside the score."""
+    """Plan the movement that meets a schedule at the given frames inside the score.
+
+    Args: needed_s: what a block that ends early leaves for the way; a quick transition by default.
+    """
     coordinates, limbs = evaluator.rig.coordinates, selection.limbs
 
-    # 3. Find from which placement to which each path leads.
+    # 4. Find from which placement to which each path leads.
     motions = path_motions(schedule, evaluator.binding.dominant)
     deferred = boundaries_on_paths(motions, schedule)
 
-    # 4. Solve a key posture at every boundary of blocks, in order of time; those on paths wait.
+    # 5. Solve a key posture at every boundary of blocks, in order of time; those on paths wait.
     neutral = ReturnToNeutral(schedule.posture_tasks, limbs, coordinates.idle)
     key_solver = KeyPostureSolver(coordinates, selection, solver, index_by_time(motions), neutral)
-    boundaries = solve_boundaries(schedule, key_solver, evaluator.binding, deferred)
+    boundaries = solve_boundaries(schedule, key_solver, evaluator.binding, deferred, needed_s)
 
-    # 5. Join the key postures to a movement, limb by limb, by minimum jerk.
-    in_use = _limbs_in_use(schedule, motions)
+    # 6. Join the key postures to a movement, limb by limb, by minimum jerk.
+    in_use = limbs_in_use(schedule, motions)
     interpolation = Interpolation(coordinates, limbs, in_use, hands_together=not selection.flat)
     monitor = ResidualMonitor(evaluator, schedule, {}, boundaries.early_ends)
     in_between = InBetweenSolver(monitor, selection, solver, boundaries.unmet)
     keys = PathKeys(motions, [*boundaries.postures], in_between, interpolation, frame_times)
     joined = keys.join_boundaries()
 
-    # 6. Measure where paths start and end, in key postures, else on the joined movement.
+    # 7. Measure where paths start and end, in key postures, else on the joined movement.
     keys.anchor_paths(joined)
 
-    # 7. Solve the boundaries that lie on paths.
+    # 8. Solve the boundaries that lie on paths.
     keys.solve_deferred(deferred, joined)
 
-    # 8. In flat mode add keys at even steps along paths and behind moving targets.
+    # 9. In flat mode add keys at even steps along paths and behind moving targets.
     if selection.flat:
         keys.sample_paths(joined)
         keys.sample_moving_targets()
     movement = interpolation.through(keys.postures)
 
-    # 9. Lead the movement round the body where it would go through it.
+    # 10. Lead the movement round the body where it would go through it.
     if not selection.flat:
         avoidance = CollisionAvoidance(evaluator, schedule, in_use, CapsuleOverlaps(evaluator))
         movement = avoidance.avoid_collisions(movement)
@@ -90,7 +94,7 @@ def plan(
     return Plan(tuple(keys.postures), movement, keys.in_between.monitor)
 
 
-def _limbs_in_use(
+def limbs_in_use(
     schedule: TaskSchedule, motions: Iterable[PathMotion]
 ) -> IntervalIndex[frozenset[str]]:
     """Return the limbs that tasks and paths use, by when they do."""

@@ -1,0 +1,69 @@
+"""A posture solver that remembers its answers: bending a score asks for most postures again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.tasks.key_posture import PostureSolver, Search
+from azee_solver.constraint import Constraint
+from azee_solver.solve_report import SolveReport
+from azee_solver.task import Task
+
+Array = NDArray[np.float64]
+
+_Question: TypeAlias = tuple[
+    tuple[tuple[Constraint, float, tuple[str, ...], int, int], ...], bytes, bytes, frozenset[int]
+]
+
+
+@dataclass(slots=True)
+class RememberingSolver:
+    """Gives the answer of another solver, once more without solving where only times differ.
+
+    When a task starts does not matter for a posture; which of two tasks starts first does. Only
+    global searches are remembered: local ones belong to the frames of one movement.
+    """
+
+    solver: PostureSolver
+    _answers: dict[_Question, tuple[tuple[Task, ...], SolveReport]] = field(
+        init=False, default_factory=dict
+    )
+
+    def __call__(
+        self,
+        ik_tasks: Sequence[Task],
+        *,
+        start: Array,
+        reference: Array,
+        search: Search = Search.GLOBAL,
+        fixed: frozenset[int] = frozenset(),
+    ) -> SolveReport:
+        """Return a posture for the tasks, as `PostureSolver` says."""
+        if search is not Search.GLOBAL:
+            return self.solver(
+                ik_tasks, start=start, reference=reference, search=search, fixed=fixed
+            )
+        question = _question(ik_tasks, start, reference, fixed)
+        if question not in self._answers:
+            report = self.solver(ik_tasks, start=start, reference=reference, fixed=fixed)
+            self._answers[question] = tuple(ik_tasks), report
+            return report
+        asked, report = self._answers[question]
+        now = dict(zip(asked, ik_tasks, strict=True))
+        return replace(
+            report, constraints=tuple(replace(c, task=now[c.task]) for c in report.constraints)
+        )
+
+
+def _question(
+    ik_tasks: Sequence[Task], start: Array, reference: Array, fixed: frozenset[int]
+) -> _Question:
+    """Return all that an answer depends on."""
+    order = {t: n for n, t in enumerate(sorted({t.start_s for t in ik_tasks}))}
+    asked = tuple((t.constraint, t.phase, t.path, t.rank, order[t.start_s]) for t in ik_tasks)
+    return asked, start.tobytes(), reference.tobytes(), fixed

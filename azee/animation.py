@@ -17,9 +17,11 @@ from numpy.typing import NDArray
 from azee.clip.clip import Clip
 from azee.motion.curves.movement import Movement
 from azee.motion.keys.plan import plan
+from azee.motion.overlay.blinks import BLINK, blinks, boundaries, lids_busy
 from azee.motion.overlay.face import RAMP_S, face_weights
-from azee.motion.overlay.idle import AFTER_S, BEFORE_S, BLINK, blinks, breathing, swaying
+from azee.motion.overlay.idle import AFTER_S, BEFORE_S, breathing, swaying
 from azee.motion.overlay.labels import labels
+from azee.motion.overlay.seed import seed_of
 from azee.motion.overlay.trill import add_trills, oscillation
 from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.key_posture import PostureSolver, Search
@@ -67,15 +69,15 @@ def animate(
     fps: float = 30.0,
     dominant: Side = Side.RIGHT,
     mode: Mode = "tracks",
-    seed: int = 0,
+    seed: int | None = None,
     life: bool = True,
     solver: PostureSolver | None = None,
 ) -> Animation:
     """Make a body play a score.
 
     Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
-        blinks, breaths and sway. life: whether to add these. solver: what solves key
-        postures; `azee_solver.solve` if none is given.
+        blinks, breaths and sway; by default `seed_of(score)`. life: whether to add these. solver:
+        what solves key postures; `azee_solver.solve` if none is given.
     What names a bone, site or morph that the rig lacks is left out.
 
     Raises: ValueError: an unknown mode or a frame rate that is none.
@@ -108,7 +110,10 @@ def animate(
         schedule.facial_morphs, rig.face_morphs, tuple(rig.units), dominant, times
     )
     if life:
-        q, weights = _with_idle_motion(q, weights, times, schedule, rig, seed)
+        seed = seed_of(score) if seed is None else seed
+        at = boundaries(score, schedule.all, q, times, rig.coordinates)
+        weights = _with_blinks(weights, times, schedule, at, rig, dominant, seed)
+        q = _with_idle_motion(q, times, schedule, rig, seed)
     weights = _with_lids(weights, q, rig)
 
     # 12. Make the clip, measure it and report.
@@ -192,18 +197,30 @@ def _with_trills(
     return add_trills(q, times, trills, evaluator.rig.coordinates)
 
 
-def _with_idle_motion(
-    q: Array, weights: Array, times: Array, schedule: TaskSchedule, rig: Rig, seed: int
-) -> tuple[Array, Array]:
-    """Add breathing, blinks and sway to coordinates (T, V) and face weights, inside the limits."""
+def _with_blinks(
+    weights: Array,
+    times: Array,
+    schedule: TaskSchedule,
+    boundaries_s: Sequence[float],
+    rig: Rig,
+    dominant: Side,
+    seed: int,
+) -> Array:
+    """Add blinks to the weights of the face units, (T, units)."""
+    rng = np.random.default_rng((seed, 1))
+    busy = lids_busy(schedule.facial_morphs, rig.face_morphs, dominant, times)
+    closing = rig.face_morphs.get(BLINK, {})
+    return weights + blinks(closing, tuple(rig.units), busy, boundaries_s, times, rng)
+
+
+def _with_idle_motion(q: Array, times: Array, schedule: TaskSchedule, rig: Rig, seed: int) -> Array:
+    """Add breathing and sway to coordinates (T, V), inside the limits."""
     rng = np.random.default_rng(seed)
     coordinates, tasks = rig.coordinates, schedule.body_tasks
     q = q + breathing(coordinates, tasks, times, rng)
     q = np.clip(q, coordinates.lower, coordinates.upper)
-    closing = rig.face_morphs.get(BLINK, {})
-    weights = weights + blinks(closing, tuple(rig.units), schedule.facial_morphs, times, rng)
     q = q + swaying(coordinates, tasks, times, rng)
-    return np.clip(q, coordinates.lower, coordinates.upper), weights
+    return np.clip(q, coordinates.lower, coordinates.upper)
 
 
 def _with_lids(weights: Array, q: Array, rig: Rig) -> Array:

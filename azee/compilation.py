@@ -115,7 +115,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     dominant: Hand = "right",
     fps: float = 30.0,
     mode: Mode = "tracks",
-    seed: int = 0,
+    seed: int | None = None,
     life: bool = True,
     solver: Method = "grouped",
     strict_body: bool = False,
@@ -137,7 +137,8 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         fps: frames per second, at least 1.
         mode: how blocks become movement. tracks: each block keys the limbs that it needs. flat:
             every key is a key of the whole body, as in Nunnari et al. 2018.
-        seed: of the random numbers for breathing, blinking and sway; a whole number from 0 on.
+        seed: of the random numbers for breathing, blinking and sway, a whole number from 0 on; by
+            default one that follows from the score.
         life: whether the signer breathes, blinks and sways.
         solver: how postures are found. grouped: problems that share coordinates are solved
             together. two-level: the iteration of Nunnari et al. 2018, for comparison.
@@ -195,7 +196,7 @@ def perform(
     dominant: Hand = "right",
     fps: float = 30.0,
     mode: Mode = "tracks",
-    seed: int = 0,
+    seed: int | None = None,
     life: bool = True,
     solver: Method = "grouped",
     strict_body: bool = False,

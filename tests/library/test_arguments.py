@@ -41,7 +41,7 @@ LONG = "x" * 300
         ({"fps": 10**400}, "frames per second make no clip"),
         *(
             ({"seed": wrong}, r"the seed is a whole number from 0 on, not ")
-            for wrong in (None, -1, 1.5, "x", True)
+            for wrong in (-1, 1.5, "x", True)
         ),
         *(
             ({"life": wrong}, r"life is True or False, not ")

@@ -402,7 +402,7 @@ def test_the_same_score_gives_the_same_bytes() -> None:
 
 
 def test_life_is_seeded_low_and_keeps_off_what_the_score_constrains() -> None:
-    face = block("FACE", "0", "3", Morph("AU1", None, 0.7))
+    face = block("FACE", "0", "3", Morph("AU5", None, 0.7))
     score = sync(block("SIGN", "0", "3", at(TIP, 0, 0, 0)), face)
     lively = animate(score, rig(), seed=5)
     assert np.array_equal(lively.clip.coordinates, animate(score, rig(), seed=5).clip.coordinates)
@@ -412,7 +412,7 @@ def test_life_is_seeded_low_and_keeps_off_what_the_score_constrains() -> None:
     assert np.abs(lively.clip.coordinates - still.clip.coordinates).max() < math.radians(1)
     shown = dict(zip(lively.clip.units, lively.clip.unit_weights[inside].T, strict=True))
     assert not any(np.any(shown.get(unit, 0.0)) for unit in rig().face_morphs["AU43"])
-    stare = animate(sync(block("FACE", "0", "30", Morph("AU1", None, 0.7))), rig(), seed=5)
+    stare = animate(sync(block("FACE", "0", "30", Morph("AU5", None, 0.7))), rig(), seed=5)
     during = stare.clip.unit_weights[frame_at(stare, 0.0) : frame_at(stare, 30.0) + 1]
     shown = dict(zip(stare.clip.units, during.T, strict=True))
     assert not any(np.any(shown.get(unit, 0.0)) for unit in rig().face_morphs["AU43"])

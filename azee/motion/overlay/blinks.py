@@ -36,7 +36,7 @@ MEDIAN_GAP_S, SPREAD = 2.6, 0.5
 """Median of the intervals, and deviation of their logarithm, on average 2.9 s: 20 blinks a minute,
 between the 17 of people at rest and the 26 of people who talk (Bentivoglio et al. 1997). The
 deviation is ours."""
-SHORTEST_GAP_S = 0.6
+SHORTEST_GAP_S = 1.0
 """Between the starts of two blinks."""
 CLOSE_S, OPEN_S = 0.07, 0.13
 

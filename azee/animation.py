@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from azee.clip.clip import Clip
 from azee.motion.curves.movement import Movement
 from azee.motion.keys.plan import plan
+from azee.motion.keys.rest import DEFAULT, RESTS, Rest, rest_posture
 from azee.motion.overlay.blinks import BLINK, blinks, boundaries, lids_busy
 from azee.motion.overlay.face import RAMP_S, face_weights
 from azee.motion.overlay.idle import AFTER_S, BEFORE_S, breathing, swaying
@@ -51,7 +52,7 @@ class Animation:
     """A clip with its report.
 
     key_times: of all key postures, on the clip's time line. lead_s: when the score's time line
-    starts in the clip; before, the signer stands in the neutral posture and moves into the first
+    starts in the clip; before, the signer stands at rest and moves into the first
     key posture. tracks: which block keys what, on the score's time line.
     """
 
@@ -71,19 +72,23 @@ def animate(
     mode: Mode = "tracks",
     seed: int | None = None,
     life: bool = True,
+    rest: Rest = DEFAULT,
     solver: PostureSolver | None = None,
 ) -> Animation:
     """Make a body play a score.
 
     Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
-        blinks, breaths and sway; by default `seed_of(score)`. life: whether to add these. solver:
-        what solves key postures; `azee_solver.solve` if none is given.
+        blinks, breaths and sway; by default `seed_of(score)`. life: whether to add these. rest:
+        where arms are that nothing needs. solver: what solves key postures; `azee_solver.solve`
+        if none is given.
     What names a bone, site or morph that the rig lacks is left out.
 
-    Raises: ValueError: an unknown mode or a frame rate that is none.
+    Raises: ValueError: an unknown mode or rest, or a frame rate that is none.
     """
     if mode not in MODES:
         raise ValueError(f"there is no mode '{mode}'; the modes are: {', '.join(MODES)}")
+    if rest not in RESTS:
+        raise ValueError(f"there is no rest '{rest}'; the rests are: {', '.join(RESTS)}")
     if not (math.isfinite(fps) and fps > 0):
         raise ValueError(f"{fps} frames per second make no clip")
     evaluator = evaluator_of(rig, dominant)
@@ -99,8 +104,9 @@ def animate(
     # 3 to 10. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
     planned = plan(
-        schedule, evaluator, selection, solver or _default_solver(rig, dominant), frames_inside
-    )
+        schedule, evaluator, selection, solver or _default_solver(rig, dominant), frames_inside,
+        rest_posture(rig, rest, dominant),
+    )  # fmt: skip
 
     # 11. Sample the movement at the clip's frames, and add trills, face, idle motion and lids.
     times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)

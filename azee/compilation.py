@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from azee.animation import Animation
     from azee.clip.clip import Clip
     from azee.lang.program import Program
+    from azee.motion.keys.rest import Rest
     from azee.motion.tasks.key_selection import Mode
     from azee.quality.motion_report import MotionReport
     from azee.score.score import Score
@@ -117,6 +118,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     mode: Mode = "tracks",
     seed: int | None = None,
     life: bool = True,
+    rest: Rest = "folded",
     solver: Method = "grouped",
     strict_body: bool = False,
 ) -> Compilation:
@@ -140,6 +142,9 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         seed: of the random numbers for breathing, blinking and sway, a whole number from 0 on; by
             default one that follows from the score.
         life: whether the signer breathes, blinks and sways.
+        rest: where arms are before and after, and while nothing is asked of them. folded: one hand
+            lies on the other before the belly. hanging: at the sides. ready: before the body,
+            bent.
         solver: how postures are found. grouped: problems that share coordinates are solved
             together. two-level: the iteration of Nunnari et al. 2018, for comparison.
         strict_body: whether to refuse a text that names a bone, site or morph that the body lacks.
@@ -156,7 +161,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     from azee_rig.rig import Rig
 
     require_text(text_or_path, expression, utterance)
-    _require_options(dominant, fps, mode, seed, life, solver)
+    _require_options(dominant, fps, mode, seed, life, rest, solver)
     found = folders(libraries)
     body = rig if isinstance(rig, Rig) else load_rig(rig)
     program = load(_source(text_or_path), found)
@@ -169,6 +174,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         mode=mode,
         seed=seed,
         life=life,
+        rest=rest,
         solver=solver,
         strict_body=strict_body,
     )
@@ -198,6 +204,7 @@ def perform(
     mode: Mode = "tracks",
     seed: int | None = None,
     life: bool = True,
+    rest: Rest = "folded",
     solver: Method = "grouped",
     strict_body: bool = False,
 ) -> Compilation:
@@ -210,7 +217,7 @@ def perform(
     from azee.animation import animate
     from azee.clip.resample import TooManyFramesError, frame_count
 
-    _require_options(dominant, fps, mode, seed, life, solver)
+    _require_options(dominant, fps, mode, seed, life, rest, solver)
     require_switch(strict_body, "strict_body")
     missing = lacks(score, rig, dominant, strict=strict_body)
     if missing and strict_body:
@@ -227,19 +234,35 @@ def perform(
 
         postures = two_level_solver(rig, side)
     animation = animate(
-        score, rig, fps=rate(fps), dominant=side, mode=mode, seed=seed, life=life, solver=postures
+        score,
+        rig,
+        fps=rate(fps),
+        dominant=side,
+        mode=mode,
+        seed=seed,
+        life=life,
+        rest=rest,
+        solver=postures,
     )
     return Compilation(score, rig, animation, missing)
 
 
 def _require_options(
-    dominant: object, fps: object, mode: object, seed: object, life: object, solver: object
+    dominant: object,
+    fps: object,
+    mode: object,
+    seed: object,
+    life: object,
+    rest: object,
+    solver: object,
 ) -> None:
     """Raise ValueError for the first option with a wrong value or type."""
+    from azee.motion.keys.rest import RESTS
     from azee.motion.tasks.key_selection import MODES
 
     require_one_of(dominant, get_args(Hand), "dominant hand", "hands")
     require_one_of(mode, MODES, "mode", "modes")
+    require_one_of(rest, RESTS, "rest", "rests")
     require_one_of(solver, get_args(Method), "solver", "solvers")
     rate(fps)
     require_seed(seed)

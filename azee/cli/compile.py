@@ -14,13 +14,14 @@ from azee.cli.number import Number
 from azee.cli.outcome import outcome_lines
 from azee.cli.outputs import check_media, check_outputs, with_suffix
 from azee.cli.profile import Profile
-from azee.cli.text import Text, dominant_option, text_options
+from azee.cli.text import Text, dominant_option, rest_option, text_options
 from azee.compilation import perform
 from azee.formats import FILM_SUFFIXES, WRITERS
 from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
     from azee.compilation import Hand, Method
+    from azee.motion.keys.rest import Rest
     from azee.motion.tasks.key_selection import Mode
 
 
@@ -68,6 +69,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="How postures are found; two-level: the iterations of the 2018 paper, for comparison.",
 )
+@rest_option
 @click.option("--no-life", is_flag=True, help="No breathing, no blinking and no sway.")
 @click.option(
     "--report",
@@ -103,6 +105,7 @@ def compile_(
     dominant: Hand,
     mode: Mode,
     solver: Method,
+    rest: Rest,
     no_life: bool,
     report: Path | None,
     strict_body: bool,
@@ -141,6 +144,7 @@ def compile_(
                     fps=fps,
                     mode=mode,
                     life=not no_life,
+                    rest=rest,
                     solver=solver,
                     strict_body=strict_body,
                 )

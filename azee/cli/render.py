@@ -14,7 +14,7 @@ from azee.cli.body import load_body
 from azee.cli.console import bar, news, working
 from azee.cli.number import Number, Seconds
 from azee.cli.outputs import check_outputs, size_of, with_suffix
-from azee.cli.text import Text, dominant_option, text_options
+from azee.cli.text import Text, dominant_option, rest_option, text_options
 from azee.clips import CLIP_SUFFIXES
 from azee.export.pictures.shots import SHOTS
 from azee.formats import FILM_SUFFIXES, RENDER_SUFFIXES, filming, writing
@@ -23,9 +23,10 @@ if TYPE_CHECKING:
     from azee.clip.clip import Clip
     from azee.compilation import Hand
     from azee.export.pictures.scene import Look
+    from azee.motion.keys.rest import Rest
     from azee_rig.rig import Rig
 
-OF_TEXTS = ("expression", "utterance", "libraries", "dominant", "no_life")
+OF_TEXTS = ("expression", "utterance", "libraries", "dominant", "rest", "no_life")
 """Options that say how a text is read and solved."""
 _SIZE = re.compile(r"(\d{1,5})\s*[x×]\s*(\d{1,5})", re.ASCII)
 
@@ -84,6 +85,7 @@ def _size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
 @click.option("--transparent", is_flag=True, help="No background; in .png and .webm.")
 @click.option("--rig", metavar="R", help="A body by name, or its folder.")
 @dominant_option
+@rest_option
 @click.option("--no-life", is_flag=True, help="No breathing and no blinking.")
 @click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
 def render(
@@ -101,6 +103,7 @@ def render(
     transparent: bool,
     rig: str | None,
     dominant: Hand,
+    rest: Rest,
     no_life: bool,
     quiet: bool,
 ) -> None:
@@ -126,7 +129,7 @@ def render(
         clip, body, keys = _of_clip(Path(file), rig, quiet)
     else:
         text = Text.read(file, expression, utterance, libraries)
-        clip, body, keys = _of_text(text, rig or "signer", dominant, not no_life, quiet)
+        clip, body, keys = _of_text(text, rig or "signer", dominant, rest, not no_life, quiet)
     beyond = [m for m in moments if m > clip.times[-1]]
     if beyond:
         raise click.BadParameter(
@@ -151,14 +154,14 @@ def _encoder_there() -> None:
 
 
 def _of_text(
-    text: Text, rig: str, dominant: Hand, life: bool, quiet: bool
+    text: Text, rig: str, dominant: Hand, rest: Rest, life: bool, quiet: bool
 ) -> tuple[Clip, Rig, Sequence[float]]:
     from azee.compilation import perform
 
     body = load_body(rig)
     score = text.score(dominant)
     with working("Solving …", quiet=quiet):
-        made = perform(score, body, dominant=dominant, life=life)
+        made = perform(score, body, dominant=dominant, rest=rest, life=life)
     return made.clip, body, made.animation.key_times
 
 

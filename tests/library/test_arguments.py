@@ -48,6 +48,10 @@ LONG = "x" * 300
             for wrong in ("no", "", None, 0, np.zeros(2))
         ),
         *(
+            ({"rest": wrong}, r"no rest .*; the rests are: folded, hanging, ready")
+            for wrong in ("asleep", "", None, 3, ["folded"])
+        ),
+        *(
             ({"utterance": wrong}, r"utterance is a whole number from 1 on, or None for all, not ")
             for wrong in ("1", 1.0, True, [1])
         ),

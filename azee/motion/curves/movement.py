@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -16,8 +16,14 @@ from azee.motion.tasks.key_posture import KeyPosture
 from azee.motion.tasks.limbs import Limbs, channel_of_limb
 from azee.score.interval import Interval
 from azee_rig.coordinates import Coordinates
+from azee_rig.rig import Rig
 
 Array = NDArray[np.float64]
+
+WAY_PARTS = 4
+"""Parts of a way from or to rest whose lengths are measured."""
+AT_ONCE = 256
+"""Postures that are measured together."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,12 +46,12 @@ class Movement:
 
     @property
     def start_s(self) -> float:
-        """When the first limb leaves neutral."""
+        """When the first limb leaves its rest."""
         return min((c.start_s for c in self.curves.values() if c.keys), default=0.0)
 
     @property
     def end_s(self) -> float:
-        """When the last limb is back at neutral."""
+        """When the last limb is back at rest."""
         return max((c.end_s for c in self.curves.values() if c.keys), default=0.0)
 
 
@@ -53,18 +59,21 @@ class Movement:
 class Interpolation:
     """Joins key postures to a movement, limb by limb.
 
-    limbs_in_use: limbs that something needs, by when. hands_together: an arm and its fingers leave
-    neutral and return to it in the same time; otherwise each limb takes its own.
+    limbs_in_use: limbs that something needs, by when. rest: (V,) where limbs are that nothing
+    needs. hands_together: an arm and its fingers leave their rest and return to it in the same
+    time; otherwise each limb takes its own.
     """
 
-    coordinates: Coordinates
+    rig: Rig
     limbs: Limbs
     limbs_in_use: IntervalIndex[frozenset[str]]
+    rest: Array
     hands_together: bool = True
 
     def through(self, postures: Iterable[KeyPosture]) -> Movement:
         """Return the movement through key postures: each limb goes through those that key it."""
         ordered = sorted(postures, key=lambda p: p.time)
+        ways = self._wrist_ways_m(ordered) if self.hands_together else {}
         curves = {}
         for limb, members in self.limbs.members.items():
             own = [p for p in ordered if limb in p.limbs]
@@ -72,12 +81,12 @@ class Interpolation:
             keys = [
                 LimbKey(
                     float(p.time), p.coordinates[members], limb in p.passing, h,
-                    self._neutral_s(p, limb) if self.hands_together else None,
+                    self._rest_s(p, limb, ways[p]) if self.hands_together else None,
                 )
                 for p, h in zip(own, [*held, False], strict=False)
             ]  # fmt: skip
-            curves[limb] = limb_curve(keys, self.coordinates.idle[members])
-        return Movement(self.coordinates, self.limbs, curves)
+            curves[limb] = limb_curve(keys, self.rest[members])
+        return Movement(self.rig.coordinates, self.limbs, curves)
 
     def _is_held(self, limb: str, a: KeyPosture, b: KeyPosture) -> bool:
         """Whether something needs a limb all the time from one of its keys to the next."""
@@ -86,16 +95,18 @@ class Interpolation:
             for needed in self.limbs_in_use.covering(Interval(a.time, b.time))
         )
 
-    def _neutral_s(self, posture: KeyPosture, limb: str) -> float:
-        """Time from or to neutral that a limb takes together with what moves with it.
+    def _rest_s(self, posture: KeyPosture, limb: str, ways_m: Mapping[str, float]) -> float:
+        """Time from or to rest that a limb takes together with what moves with it.
 
         The fingers form a handshape while the arm brings the hand there: all of a hand's limbs
         that the posture keys take as long as the slowest of them.
+
+        Args: ways_m: of the wrist from or to rest, by arm.
         """
-        q, neutral = posture.coordinates, self.coordinates.idle
+        q, rest = posture.coordinates, self.rest
         hand = channel_of_limb(limb) == "hands" and limb[-2:]
         return max(
-            calm_transition_s(q[members], neutral[members])
+            calm_transition_s(q[members], rest[members], ways_m.get(other, 0.0))
             for other, members in self.limbs.members.items()
             if other == limb
             or (
@@ -105,3 +116,27 @@ class Interpolation:
                 and other in posture.limbs
             )
         )
+
+    def _wrist_ways_m(
+        self, postures: Sequence[KeyPosture]
+    ) -> dict[KeyPosture, Mapping[str, float]]:
+        """Return the ways of the wrists between each posture and rest, by arm, metres.
+
+        A way is as long as if it went all at the speed of its fastest part, of `WAY_PARTS` between
+        postures at even shares of the transition: so bounds of speeds hold on all of it.
+        """
+        arms = {
+            f"arm_{side}": self.rig.bones[f"palm_{side}"].origin_node
+            for side in "LR"
+            if f"palm_{side}" in self.rig.bones and f"arm_{side}" in self.limbs.members
+        }
+        out: dict[KeyPosture, Mapping[str, float]] = {}
+        shares = np.linspace(0.0, 1.0, WAY_PARTS + 1)[:, None]
+        for start in range(0, len(postures), AT_ONCE):
+            some = postures[start : start + AT_ONCE]
+            q = np.stack([self.rest + shares * (p.coordinates - self.rest) for p in some])
+            at = self.rig.chain.frames(q).positions[..., [*arms.values()], :]
+            parts = np.linalg.norm(np.diff(at, axis=1), axis=-1)
+            for posture, longest in zip(some, WAY_PARTS * parts.max(axis=1), strict=True):
+                out[posture] = dict(zip(arms, longest.tolist(), strict=True))
+        return out

@@ -9,6 +9,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+import numpy as np
+from numpy.typing import NDArray
+
 from azee.motion.curves.avoidance import CollisionAvoidance
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.movement import Interpolation, Movement
@@ -31,6 +34,8 @@ from azee.motion.tasks.key_selection import KeySelection
 from azee.motion.tasks.schedule import TaskSchedule
 from azee_solver.evaluate import Evaluator
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan:
@@ -52,8 +57,12 @@ def plan(
     selection: KeySelection,
     solver: PostureSolver,
     frame_times: Sequence[Fraction],
+    rest: Array,
 ) -> Plan:
-    """Plan the movement that meets a schedule at the given frames inside the score."""
+    """Plan the movement that meets a schedule at the given frames inside the score.
+
+    Args: rest: (V,) the posture in which limbs are that nothing needs.
+    """
     coordinates, limbs = evaluator.rig.coordinates, selection.limbs
 
     # 3. Find from which placement to which each path leads.
@@ -61,13 +70,15 @@ def plan(
     deferred = boundaries_on_paths(motions, schedule)
 
     # 4. Solve a key posture at every boundary of blocks, in order of time; those on paths wait.
-    neutral = ReturnToNeutral(schedule.posture_tasks, limbs, coordinates.idle)
+    neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
     key_solver = KeyPostureSolver(coordinates, selection, solver, index_by_time(motions), neutral)
     boundaries = solve_boundaries(schedule, key_solver, evaluator.binding, deferred)
 
     # 5. Join the key postures to a movement, limb by limb, by minimum jerk.
     in_use = _limbs_in_use(schedule, motions)
-    interpolation = Interpolation(coordinates, limbs, in_use, hands_together=not selection.flat)
+    interpolation = Interpolation(
+        evaluator.rig, limbs, in_use, rest, hands_together=not selection.flat
+    )
     monitor = ResidualMonitor(evaluator, schedule, {}, boundaries.early_ends)
     in_between = InBetweenSolver(monitor, selection, solver, boundaries.unmet)
     keys = PathKeys(motions, [*boundaries.postures], in_between, interpolation, frame_times)

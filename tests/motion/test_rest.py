@@ -47,7 +47,7 @@ def test_folded_hands_lie_on_one_another_before_the_belly_and_arms_hang_at_the_s
     q = rest_posture(rig, "folded", Side.RIGHT)
     frames = rig.chain.frames(q)
     strong, weak = (rig.sites[name].point(frames) for name in ("PA_R", "H_BACK_L"))
-    assert np.linalg.norm(strong - weak) < 0.15 * rig.landmarks.arm_m
+    assert np.linalg.norm(strong - weak) < 0.18 * rig.landmarks.arm_m
     assert strong[2] > weak[2]
     bend = [np.degrees(q[rig.coordinates.index[f"palm_{side}.flexion"]]) for side in "LR"]
     assert max(map(abs, bend)) < 25.0

@@ -117,7 +117,7 @@ def _constraints(rest: Rest, dominant: Side) -> Sequence[Constraint]:
                 *_palm(strong, along=(0.85 * inward, -0.25, 0.3), facing=(0.0, 0.2, -1.0)),
                 Place(
                     Site("PA", strong),
-                    VTranslate(SitePoint(Site("H_BACK", weak)), Vec(0.0, 0.025, 0.054)),
+                    VTranslate(SitePoint(Site("H_BACK", weak)), Vec(0.0, 0.03, 0.07)),
                 ),
             )
         case "hanging":

@@ -17,13 +17,16 @@ from numpy.typing import NDArray
 from azee.clip.clip import Clip
 from azee.motion.curves.movement import Movement
 from azee.motion.keys.plan import Plan, plan
+from azee.motion.keys.rest import DEFAULT, RESTS, Rest, rest_posture
 from azee.motion.overlay.accents import layers as accent_layers
 from azee.motion.overlay.accents import shortfalls as accent_shortfalls
+from azee.motion.overlay.blinks import BLINK, blinks, boundaries, lids_busy
 from azee.motion.overlay.face import RAMP_S, face_weights
-from azee.motion.overlay.idle import AFTER_S, BEFORE_S, BLINK, blinks
 from azee.motion.overlay.labels import labels
+from azee.motion.overlay.life import AFTER_S, BEFORE_S
 from azee.motion.overlay.life import life as life_of
 from azee.motion.overlay.saturation import saturated
+from azee.motion.overlay.seed import seed_of
 from azee.motion.overlay.trill import add_trills, oscillation
 from azee.motion.projection.projection import Reference, inside, on_living_body, project
 from azee.motion.tasks.flatten import flatten
@@ -63,7 +66,7 @@ class Animation:
 
     score: as performed; all times are those of its time line. key_times: of all key postures, on
     the clip's time line. lead_s: when the score's time line starts in the clip; before, the signer
-    stands in the neutral posture and moves into the first key posture. tracks: which block keys
+    stands at rest and moves into the first key posture. tracks: which block keys
     what, on the score's time line.
     """
 
@@ -82,8 +85,9 @@ def animate(
     fps: float = 30.0,
     dominant: Side = Side.RIGHT,
     mode: Mode = "tracks",
-    seed: int = 0,
+    seed: int | None = None,
     life: bool = True,
+    rest: Rest = DEFAULT,
     solver: PostureSolver | None = None,
     timing: Timing | None = None,
     tempo: float = 1.0,
@@ -92,13 +96,14 @@ def animate(
     """Make a body play a score.
 
     Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
-        blinks, breaths and sway. life: whether to add these. solver: what solves key
-        postures; `azee_solver.solve` if none is given. timing: whether ways that are too long for
-        their time get more of it; by default they do in tracks and not in flat mode. tempo: how
-        many times faster all is that is not fixed. pace: how fast arms go.
+        blinks and of life; by default `seed_of(score)`. life: whether to add these. rest: where
+        arms are that nothing needs. solver: what solves key postures; `azee_solver.solve` if none
+        is given. timing: whether ways that are too long for their time get more of it; by default
+        they do in tracks and not in flat mode. tempo: how many times faster all is that is not
+        fixed. pace: how fast arms go.
     What names a bone, site or morph that the rig lacks is left out.
 
-    Raises: ValueError: an unknown mode or timing, or a frame rate or tempo that is none.
+    Raises: ValueError: an unknown mode, timing or rest, or a frame rate or tempo that is none.
     """
     if timing is None:
         timing = "exact" if mode == "flat" else "performed"
@@ -108,12 +113,15 @@ def animate(
         raise ValueError(f"nobody signs {tempo} times as fast")
     if mode not in MODES:
         raise ValueError(f"there is no mode '{mode}'; the modes are: {', '.join(MODES)}")
+    if rest not in RESTS:
+        raise ValueError(f"there is no rest '{rest}'; the rests are: {', '.join(RESTS)}")
     if not (math.isfinite(fps) and fps > 0):
         raise ValueError(f"{fps} frames per second make no clip")
     evaluator = evaluator_of(rig, dominant)
     selection = KeySelection(Limbs.of(rig.coordinates), mode)
     rate = Fraction(fps)
     layered = not selection.flat
+    seed = seed_of(score) if seed is None else seed
 
     # 1. Give ways their time: scale the score, and bend it where an arm has too far to go.
     postures = solver or _default_solver(rig, dominant)
@@ -121,7 +129,9 @@ def animate(
     performance, needed_s = Performance(score), None
     if timing == "performed":
         postures = RememberingSolver(postures)
-        performance = performed(score, evaluator, selection, postures, pace)
+        performance = performed(
+            score, evaluator, selection, postures, pace, rest_posture(rig, rest, dominant)
+        )
         score, needed_s = performance.score, Ways(evaluator, selection.limbs.members, pace).needed_s
 
     # 2. Project the nested score on one time line.
@@ -132,7 +142,8 @@ def animate(
 
     # 4 to 10. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
-    planned = plan(schedule, evaluator, selection, postures, frames_inside, needed_s)
+    at_rest = rest_posture(rig, rest, dominant)
+    planned = plan(schedule, evaluator, selection, postures, frames_inside, at_rest, needed_s)
 
     # 11. Sample the movement at the clip's frames, and lay accents and life on it.
     times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)
@@ -154,10 +165,8 @@ def animate(
         schedule.facial_morphs, rig.face_morphs, tuple(rig.units), dominant, seconds
     )
     if life:
-        weights = weights + blinks(
-            rig.face_morphs.get(BLINK, {}), tuple(rig.units), schedule.facial_morphs, seconds,
-            np.random.default_rng(seed),
-        )  # fmt: skip
+        at = boundaries(score, schedule.all, q, seconds, rig.coordinates)
+        weights = _with_blinks(weights, seconds, schedule, at, rig, dominant, seed)
     weights = saturated(_with_lids(weights, q, rig), rig)
 
     # 14. Make the clip, measure it and report.
@@ -268,6 +277,22 @@ def _with_trills(
         posture = q[int(np.abs(times - middle).argmin())]
         trills.append(oscillation(task, posture, evaluator))
     return add_trills(q, times, trills, evaluator.rig.coordinates)
+
+
+def _with_blinks(
+    weights: Array,
+    times: Array,
+    schedule: TaskSchedule,
+    boundaries_s: Sequence[float],
+    rig: Rig,
+    dominant: Side,
+    seed: int,
+) -> Array:
+    """Add blinks to the weights of the face units, (T, units)."""
+    rng = np.random.default_rng((seed, 1))
+    busy = lids_busy(schedule.facial_morphs, rig.face_morphs, dominant, times)
+    closing = rig.face_morphs.get(BLINK, {})
+    return weights + blinks(closing, tuple(rig.units), busy, boundaries_s, times, rng)
 
 
 def _with_lids(weights: Array, q: Array, rig: Rig) -> Array:

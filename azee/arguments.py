@@ -45,8 +45,8 @@ def require_tempo(value: object) -> None:
 
 
 def require_seed(value: object) -> None:
-    """Require a seed of random numbers. Raises: ValueError."""
-    if not (_is_whole(value) and int(value) >= 0):
+    """Require a seed of random numbers, None for that of the score. Raises: ValueError."""
+    if value is not None and not (_is_whole(value) and int(value) >= 0):
         raise ValueError(f"the seed is a whole number from 0 on, not {shown(value)}")
 
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from azee.animation import Animation
     from azee.clip.clip import Clip
     from azee.lang.program import Program
+    from azee.motion.keys.rest import Rest
     from azee.motion.tasks.key_selection import Mode
     from azee.motion.timing.performed import Timing
     from azee.quality.motion_report import MotionReport
@@ -118,8 +119,9 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     dominant: Hand = "right",
     fps: float = 30.0,
     mode: Mode = "tracks",
-    seed: int = 0,
+    seed: int | None = None,
     life: bool = True,
+    rest: Rest = "folded",
     solver: Method = "grouped",
     strict_body: bool = False,
     timing: Timing | None = None,
@@ -142,8 +144,12 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         fps: frames per second, at least 1.
         mode: how blocks become movement. tracks: each block keys the limbs that it needs. flat:
             every key is a key of the whole body, as in Nunnari et al. 2018.
-        seed: of the random numbers for breathing, blinking and sway; a whole number from 0 on.
+        seed: of the random numbers for breathing, blinking and sway, a whole number from 0 on; by
+            default one that follows from the score.
         life: whether the signer breathes, blinks and sways.
+        rest: where arms are before and after, and while nothing is asked of them. folded: one hand
+            lies on the other before the belly. hanging: at the sides. ready: before the body,
+            bent.
         solver: how postures are found. grouped: problems that share coordinates are solved
             together. two-level: the iteration of Nunnari et al. 2018, for comparison.
         strict_body: whether to refuse a text that names a bone, site or morph that the body lacks.
@@ -164,7 +170,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     from azee_rig.rig import Rig
 
     require_text(text_or_path, expression, utterance)
-    _require_options(dominant, fps, mode, seed, life, solver, timing, tempo)
+    _require_options(dominant, fps, mode, seed, life, rest, solver, timing, tempo)
     found = folders(libraries)
     body = rig if isinstance(rig, Rig) else load_rig(rig)
     program = load(_source(text_or_path), found)
@@ -177,6 +183,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         mode=mode,
         seed=seed,
         life=life,
+        rest=rest,
         solver=solver,
         strict_body=strict_body,
         timing=timing,
@@ -206,8 +213,9 @@ def perform(
     dominant: Hand = "right",
     fps: float = 30.0,
     mode: Mode = "tracks",
-    seed: int = 0,
+    seed: int | None = None,
     life: bool = True,
+    rest: Rest = "folded",
     solver: Method = "grouped",
     strict_body: bool = False,
     timing: Timing | None = None,
@@ -222,7 +230,7 @@ def perform(
     from azee.animation import animate
     from azee.clip.resample import TooManyFramesError, frame_count
 
-    _require_options(dominant, fps, mode, seed, life, solver, timing, tempo)
+    _require_options(dominant, fps, mode, seed, life, rest, solver, timing, tempo)
     require_switch(strict_body, "strict_body")
     missing = lacks(score, rig, dominant, strict=strict_body)
     if missing and strict_body:
@@ -246,6 +254,7 @@ def perform(
         mode=mode,
         seed=seed,
         life=life,
+        rest=rest,
         solver=postures,
         timing=timing,
         tempo=float(tempo),
@@ -259,16 +268,19 @@ def _require_options(
     mode: object,
     seed: object,
     life: object,
+    rest: object,
     solver: object,
     timing: object,
     tempo: object,
 ) -> None:
     """Raise ValueError for the first option with a wrong value or type."""
+    from azee.motion.keys.rest import RESTS
     from azee.motion.tasks.key_selection import MODES
     from azee.motion.timing.performed import TIMINGS
 
     require_one_of(dominant, get_args(Hand), "dominant hand", "hands")
     require_one_of(mode, MODES, "mode", "modes")
+    require_one_of(rest, RESTS, "rest", "rests")
     require_one_of(solver, get_args(Method), "solver", "solvers")
     if timing is not None:
         require_one_of(timing, TIMINGS, "timing", "timings")

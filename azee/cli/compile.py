@@ -14,13 +14,20 @@ from azee.cli.number import Number
 from azee.cli.outcome import outcome_lines
 from azee.cli.outputs import check_media, check_outputs, with_suffix
 from azee.cli.profile import Profile
-from azee.cli.text import Text, dominant_option, text_options, timing_options
+from azee.cli.text import (
+    Text,
+    dominant_option,
+    rest_option,
+    text_options,
+    timing_options,
+)
 from azee.compilation import perform
 from azee.formats import FILM_SUFFIXES, WRITERS
 from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
     from azee.compilation import Hand, Method
+    from azee.motion.keys.rest import Rest
     from azee.motion.tasks.key_selection import Mode
     from azee.motion.timing.performed import Timing
 
@@ -69,6 +76,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="How postures are found; two-level: the iterations of the 2018 paper, for comparison.",
 )
+@rest_option
 @timing_options
 @click.option("--no-life", is_flag=True, help="No breathing, no blinking and no sway.")
 @click.option(
@@ -105,6 +113,7 @@ def compile_(
     dominant: Hand,
     mode: Mode,
     solver: Method,
+    rest: Rest,
     timing: Timing | None,
     tempo: float,
     no_life: bool,
@@ -145,6 +154,7 @@ def compile_(
                     fps=fps,
                     mode=mode,
                     life=not no_life,
+                    rest=rest,
                     solver=solver,
                     strict_body=strict_body,
                     timing=timing,

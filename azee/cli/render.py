@@ -14,7 +14,13 @@ from azee.cli.body import load_body
 from azee.cli.console import bar, news, working
 from azee.cli.number import Number, Seconds
 from azee.cli.outputs import check_outputs, size_of, with_suffix
-from azee.cli.text import Text, dominant_option, text_options, timing_options
+from azee.cli.text import (
+    Text,
+    dominant_option,
+    rest_option,
+    text_options,
+    timing_options,
+)
 from azee.clips import CLIP_SUFFIXES
 from azee.export.pictures.shots import SHOTS
 from azee.formats import FILM_SUFFIXES, RENDER_SUFFIXES, filming, writing
@@ -23,10 +29,13 @@ if TYPE_CHECKING:
     from azee.clip.clip import Clip
     from azee.compilation import Hand
     from azee.export.pictures.scene import Look
+    from azee.motion.keys.rest import Rest
     from azee.motion.timing.performed import Timing
     from azee_rig.rig import Rig
 
-OF_TEXTS = ("expression", "utterance", "libraries", "dominant", "timing", "tempo", "no_life")
+OF_TEXTS = (
+    "expression", "utterance", "libraries", "dominant", "rest", "timing", "tempo", "no_life"
+)  # fmt: skip
 """Options that say how a text is read and solved."""
 _SIZE = re.compile(r"(\d{1,5})\s*[x×]\s*(\d{1,5})", re.ASCII)
 
@@ -85,6 +94,7 @@ def _size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
 @click.option("--transparent", is_flag=True, help="No background; in .png and .webm.")
 @click.option("--rig", metavar="R", help="A body by name, or its folder.")
 @dominant_option
+@rest_option
 @timing_options
 @click.option("--no-life", is_flag=True, help="No breathing and no blinking.")
 @click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
@@ -103,6 +113,7 @@ def render(
     transparent: bool,
     rig: str | None,
     dominant: Hand,
+    rest: Rest,
     timing: Timing | None,
     tempo: float,
     no_life: bool,
@@ -137,8 +148,9 @@ def render(
         score = text.score(dominant)
         with working("Solving …", quiet=quiet):
             made = perform(
-                score, body, dominant=dominant, life=not no_life, timing=timing, tempo=tempo
-            )
+                score, body, dominant=dominant, life=not no_life, rest=rest, timing=timing,
+                tempo=tempo,
+            )  # fmt: skip
         for line in longer(made.report):
             news(line, quiet=quiet)
         clip, keys = made.clip, made.animation.key_times

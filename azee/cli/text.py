@@ -47,6 +47,15 @@ dominant_option = click.option(
 )
 """`--dominant HAND`, of every command that tells strong and weak apart."""
 
+rest_option = click.option(
+    "--rest",
+    type=click.Choice(["folded", "hanging", "ready"]),
+    default="folded",
+    show_default=True,
+    help="Where arms are that nothing is asked of: hands on one another, hanging, or held ready.",
+)
+"""`--rest REST`, of every command that makes a movement."""
+
 
 def timing_options(command: Command) -> Command:
     """Add the options --timing and --tempo to a command that makes a text move."""

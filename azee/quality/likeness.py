@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 from azee.clip.clip import Clip
+from azee.motion.tasks.signs import Sign
 from azee.quality.head_and_gaze import (
     HeadUnderGaze,
     head_under_gaze,
@@ -27,7 +28,7 @@ from azee.quality.joints import (
 )
 from azee.quality.kinematics import Extreme, Kinematics
 from azee.quality.repetitions import Repetition, repetitions
-from azee.quality.rhythm import Blinks, Sign, blinks, signs, signs_per_s
+from azee.quality.rhythm import Blinks, blinks, signs_of, signs_per_s
 from azee.quality.signing_dynamics import FPS, SigningDynamics, signing_dynamics
 from azee.quality.symmetry import elbow_asymmetry_cm
 from azee.quality.task_spans import TaskSpan
@@ -95,7 +96,7 @@ def likeness(
     """
     k = Kinematics.of(clip, rig, zero_s)
     moves = transitions(k, spans)
-    found = signs(score, spans)
+    found = signs_of(score, spans)
     spreads = sorted(t.onset_spread_ms for t in moves if t.onset_spread_ms is not None)
     return Likeness(
         transitional_wrist_speed_m_s=largest_wrist_speed(k, spans, "transitional"),

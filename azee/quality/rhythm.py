@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.overlay.idle import BLINK
+from azee.motion.overlay.blinks import BLINK
+from azee.motion.tasks.limbs import NON_MANUAL
+from azee.motion.tasks.signs import Sign, signs
 from azee.quality.kinematics import Kinematics
 from azee.quality.signing_dynamics import runs
 from azee.quality.task_spans import TaskSpan
-from azee.score.score import Group, Score
+from azee.score.score import Score
 
 Array = NDArray[np.float64]
 
@@ -25,49 +26,16 @@ BOUNDARY_S = 0.15
 """As near as this to the start or the end of a sign a blink is at its boundary."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sign:
-    """A rule's application that asks something of the hands and holds no other that does.
-
-    Applications of the same rule that follow each other inside one other are one sign: movements
-    of it. Times are the score's.
-    """
-
-    rule: str
-    start_s: float
-    end_s: float
-
-
-def signs(score: Score, spans: Sequence[TaskSpan]) -> tuple[Sign, ...]:
+def signs_of(score: Score, spans: Sequence[TaskSpan]) -> tuple[Sign, ...]:
     """Return the signs of a score in order; the whole is one if no rule makes one.
 
     Args: spans: what the score asks, to tell signs from what heads and faces do.
     """
-    manual = [s for s in spans if s.limb not in ("trunk", "head", "eyes", "face")]
-    paths = {s.path[:n] for s in manual for n in range(len(s.path) + 1)}
-    found = [*_signs(score, (), Fraction(0), paths)]
-    if not found and manual:
-        whole = min(s.start_s for s in manual), max(s.end_s for s in manual)
-        found = [Sign("", *whole)]
-    return tuple(sorted(found, key=lambda s: (s.start_s, s.end_s)))
-
-
-def _signs(
-    score: Score, path: tuple[str, ...], start: Fraction, manual: set[tuple[str, ...]]
-) -> Iterator[Sign]:
-    if path not in manual:
-        return
-    inside: list[Sign] = []
-    for block in score.blocks if isinstance(score, Group) else ():
-        at = start + block.interval_in_parent.start
-        for sign in _signs(block.score, (*path, block.name), at, manual):
-            if inside and inside[-1].rule == sign.rule and score.calls:
-                sign = Sign(sign.rule, inside.pop().start_s, sign.end_s)
-            inside.append(sign)
-    if inside:
-        yield from inside
-    elif score.calls:
-        yield Sign(score.calls[-1].rule, float(start), float(start + score.duration))
+    manual = [s for s in spans if s.limb not in NON_MANUAL]
+    found = signs(score, (s.path for s in manual))
+    if found or not manual:
+        return found
+    return (Sign("", min(s.start_s for s in manual), max(s.end_s for s in manual)),)
 
 
 def signs_per_s(found: Sequence[Sign]) -> float | None:

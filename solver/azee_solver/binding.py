@@ -71,7 +71,7 @@ class Binding:
         raise BindingError("rig-lacks-morph", key, morph.origin)
 
     def preset(self, morph: Morph) -> dict[int, float]:
-        """Coordinates that a skeletal morph moves, and the angle at its weight, radians."""
+        """Coordinates that a skeletal morph moves, and by how much at its weight, radians."""
         index = self.rig.coordinates.index
         angles = self.rig.skeletal_morphs[morph.key(self.dominant)]
         return {index[name]: morph.weight * angle for name, angle in angles.items()}
@@ -79,7 +79,8 @@ class Binding:
     def presets(self, constraints: Iterable[Constraint]) -> dict[int, float]:
         """Angles that all skeletal morphs in force at one moment ask for together.
 
-        They add, and thumbs that they would put into their hand move aside; see `handshape`.
+        They add to straight digits, and thumbs that they would put into their hand move aside; see
+        `handshape`.
         """
         morphs = tuple(constraint for constraint in constraints if isinstance(constraint, Morph))
         if morphs not in self._together:
@@ -94,9 +95,10 @@ class Binding:
                     total[v] = total.get(v, 0.0) + angle
         if not total:
             return total
-        from azee_solver.handshape import fitted
+        from azee_solver.handshape import fitted, straight
 
-        return fitted(self.rig, total)
+        names = self.rig.coordinates.names
+        return fitted(self.rig, {v: straight(names[v]) + a for v, a in total.items()})
 
     def has(self, constraint: Constraint) -> bool:
         """Whether the rig has everything that a constraint names."""

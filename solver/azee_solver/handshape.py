@@ -1,4 +1,6 @@
-"""Handshapes that fit the hand: a thumb lies on the fingers, not in them.
+"""Handshapes that fit the hand: straight digits are not stretched, and thumbs lie on fingers.
+
+Nobody holds a straight finger at zero. The angles of skeletal morphs are counted from `STRAIGHT`.
 
 Presets say where digits go, by angles that know nothing of flesh: the angles of a straight thumb
 put it into the palm, those of a fist through the index. Here thumbs move aside, each in its own
@@ -9,6 +11,7 @@ the same wherever the hand is.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -30,6 +33,24 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+STRAIGHT: Mapping[str, float] = {
+    digit + joint: math.radians(angle)
+    for digit, angles in {
+        "index": (3.0, 6.0, 4.0),
+        "middle": (3.0, 5.0, 4.0),
+        "ring": (3.0, 6.0, 4.0),
+        "little": (5.0, 8.0, 5.0),
+    }.items()
+    for joint, angle in zip(("_1.flexion", "_2.flexion", "_3.flexion"), angles, strict=True)
+} | dict.fromkeys(("thumb_2.flexion", "thumb_3.flexion"), math.radians(6.0))
+"""Flexion of digits that people hold straight, radians, by digit and joint.
+
+In recordings of the ASL alphabet, seen by MediaPipe Holistic, the medians at PIP and DIP are 8 and
+5 degrees in stretched index fingers, 4 and 5 in middle, 10 and 6 in ring and 15 and 8 in little
+fingers (3 to 13 letters each); ours are a little straighter where bent neighbours bend these. MCP
+and thumb are ours: the tracker has no metacarpal to measure them against.
+"""
+
 KEEP = 4.0
 """Cost of a squared radian away from a preset, beside which an overlap of 1 mm costs 1."""
 OVERLAP = 1e6
@@ -38,6 +59,11 @@ MOVED_RAD = 1e-4
 """A thumb that moves by less has nothing in its way."""
 MARGIN_M, PALM_MARGIN_M = 0.003, 0.006
 """Capsules hold most of the skin, not all: so far a thumb stays away from fingers and palm."""
+
+
+def straight(coordinate: str) -> float:
+    """Return the angle of a coordinate such as `index_R_1.flexion` in a straight digit, radians."""
+    return STRAIGHT.get(coordinate.replace("_L_", "_").replace("_R_", "_"), 0.0)
 
 
 def fitted(rig: Rig, presets: Mapping[int, float]) -> dict[int, float]:

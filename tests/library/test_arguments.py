@@ -41,11 +41,15 @@ LONG = "x" * 300
         ({"fps": 10**400}, "frames per second make no clip"),
         *(
             ({"seed": wrong}, r"the seed is a whole number from 0 on, not ")
-            for wrong in (None, -1, 1.5, "x", True)
+            for wrong in (-1, 1.5, "x", True)
         ),
         *(
             ({"life": wrong}, r"life is True or False, not ")
             for wrong in ("no", "", None, 0, np.zeros(2))
+        ),
+        *(
+            ({"rest": wrong}, r"no rest .*; the rests are: folded, hanging, ready")
+            for wrong in ("asleep", "", None, 3, ["folded"])
         ),
         *(
             ({"utterance": wrong}, r"utterance is a whole number from 1 on, or None for all, not ")

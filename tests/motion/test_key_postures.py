@@ -12,6 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from azee.animation import Animation, animate
+from azee.motion.keys.rest import rest_posture
 from azee.motion.keys.transpath import boundaries_on_paths, path_motions
 from azee.motion.tasks.key_posture import Origin, Search
 from azee.motion.tasks.key_selection import Mode
@@ -189,7 +190,11 @@ def test_what_is_open_is_drawn_to_idle_and_a_block_that_lasts_is_where_the_searc
         solver,
     )
     a, b, c = boundaries(solver)[:3]
-    assert all(asked.reference == pytest.approx(idle) for asked in (a, b, c))
+    arm = [v for v, name in enumerate(rig().coordinates.names) if name.startswith("arm_R")]
+    assert all(asked.reference[arm] == pytest.approx(idle[arm]) for asked in (a, b, c))
+    weak = [v for v, name in enumerate(rig().coordinates.names) if name.startswith("arm_L")]
+    standing = rest_posture(rig(), "folded", Side.RIGHT)
+    assert a.reference[weak] == pytest.approx(standing[weak]), "where nothing is asked it rests"
     assert [asked.start[flexion] - idle[flexion] for asked in (a, b, c)] == pytest.approx(
         [0.0, 0.0, 0.2]
     )
@@ -295,13 +300,15 @@ def test_where_what_lasts_is_in_the_way_all_is_solved_anew() -> None:
     assert [bool(a.fixed) for a in boundaries(solver)[1:3]] == [True, False]
 
 
-def test_a_limb_long_unused_is_neutral_again() -> None:
+def test_a_limb_long_unused_is_at_rest_again() -> None:
     solver = Recorder()
     weak = Place(WEAK_TIP, MIDDLE)
     play(sync(block("A", "0", ".5", HERE), block("B", "3", "1", weak)), solver)
     second = boundaries(solver)[1]
     assert second.constraints == (weak,)
-    assert second.start == pytest.approx(rig().coordinates.idle)
+    strong = [v for v, name in enumerate(rig().coordinates.names) if name.startswith("arm_R")]
+    standing = rest_posture(rig(), "folded", Side.RIGHT)
+    assert second.start[strong] == pytest.approx(standing[strong])
 
 
 def test_on_a_path_the_trunk_keeps_its_curve_and_the_search_is_local() -> None:

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 
 import azee
+from azee.motion.tasks.signs import Sign
 from azee.quality.head_and_gaze import HeadUnderGaze
 from azee.quality.kinematics import Extreme
 from azee.quality.likeness import Likeness
 from azee.quality.repetitions import Repetition
-from azee.quality.rhythm import Sign
 from azee.quality.transitions import Transition
 from benchmarks import likeness
 from benchmarks.likeness_figures import FIGURES, Figure

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from movements import drawn, span
 
+from azee.motion.tasks.signs import Sign
 from azee.quality.kinematics import Kinematics
-from azee.quality.rhythm import Sign, blinks, signs, signs_per_s
+from azee.quality.rhythm import blinks, signs_of, signs_per_s
 from azee.score.interval import Interval
 from azee.score.score import Block, Call, Group, Key, Score
 from azee_rig.rig import Rig
@@ -42,7 +43,7 @@ def test_signs_are_the_innermost_rules_that_ask_something_of_the_hands() -> None
         span(1.5, 3.5, limb="index_L", path=("2",)),
         span(3.5, 4.5, limb="head", path=("SHAKE",)),
     ]
-    found = signs(score, asked)
+    found = signs_of(score, asked)
     assert found == (Sign("arbre", 0.0, 1.0), Sign("good", 1.5, 3.5))
     assert signs_per_s(found) == pytest.approx(2 / 3.5)
 
@@ -52,14 +53,14 @@ def test_a_movement_that_is_made_again_is_the_same_sign() -> None:
     age = group(("1", "0", key("1", *once)), ("2", "1", key("1", *once)), rules=("âge",))
     score = group(("1", "0", age), ("2", "2", age))
     asked = [span(0, 1, path=(a, b)) for a in "12" for b in "12"]
-    assert signs(score, asked) == (Sign("âge-once", 0.0, 2.0), Sign("âge-once", 2.0, 4.0))
+    assert signs_of(score, asked) == (Sign("âge-once", 0.0, 2.0), Sign("âge-once", 2.0, 4.0))
 
 
 def test_without_rules_the_whole_is_a_sign_and_without_hands_there_is_none() -> None:
     score = group(("A", "0", key("1")), ("B", "1", key("1")))
     asked = [span(0.0, 1.0, path=("A",)), span(1.0, 2.0, path=("B",))]
-    assert signs(score, asked) == (Sign("", 0.0, 2.0),)
-    assert signs(score, [span(0.0, 1.0, limb="head", path=("A",))]) == ()
+    assert signs_of(score, asked) == (Sign("", 0.0, 2.0),)
+    assert signs_of(score, [span(0.0, 1.0, limb="head", path=("A",))]) == ()
     assert signs_per_s(()) is None
 
 

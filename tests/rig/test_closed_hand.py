@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import LinearNDInterpolator
 
 from azee_rig.rig import Rig
+from azee_solver.handshape import straight
 
 Floats = NDArray[np.float64]
 FINGERS = {"index": 2, "middle": 3, "ring": 4, "little": 5}
@@ -52,7 +53,8 @@ def test_morphs_close_a_hand_without_passing_through_it(
     q = posture(signer)
     for finger in FINGERS:
         for k in (1, 2, 3):
-            q[signer.coordinates.index[f"{finger}_R_{k}.flexion"]] = 0.0
+            name = f"{finger}_R_{k}.flexion"
+            q[signer.coordinates.index[name]] = straight(name)
         for morph in morphs:
             for name, angle in signer.skeletal_morphs[f"{finger}_{morph}_R"].items():
                 q[signer.coordinates.index[name]] += angle

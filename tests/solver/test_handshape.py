@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from tree_sign import S, along, tasks
 
+from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver.binding import Binding
 from azee_solver.constraint import BoneAxis, Constraint, Morph
 from azee_solver.geometry import Bone, Dir, Side
-from azee_solver.handshape import fitted
+from azee_solver.handshape import STRAIGHT, fitted, straight
 from azee_solver.penetration import Contact, mesh_penetration
 from azee_solver.solve import solve
 from azee_solver.solve_report import SolveReport
@@ -61,7 +62,7 @@ def test_without_giving_way_the_skin_would_enter_itself(signer: Rig) -> None:
     for constraint in morphs(**FLAT):
         assert isinstance(constraint, Morph)
         for v, angle in Binding(signer, Side.RIGHT).preset(constraint).items():
-            q[v] = angle
+            q[v] = straight(signer.coordinates.names[v]) + angle
     worst = mesh_penetration(signer, q)[0]
     assert worst.limb == "thumb_R"
     assert worst.depth_m > 8e-3
@@ -74,17 +75,48 @@ def test_only_thumbs_give_way_and_only_where_something_is_in_their_way(signer: R
     spread = {"thumb_R_1.flexion": -0.9, "thumb_R_1.abduction": 0.2, "index_R_2.flexion": 1.0}
     asked = {index[name]: angle for name, angle in spread.items()}
     assert fitted(signer, asked) == asked
-    closed = {index[name]: angle for name, angle in signer.skeletal_morphs["fist_close_R"].items()}
+    closed = {
+        index[name]: straight(name) + angle
+        for name, angle in signer.skeletal_morphs["fist_close_R"].items()
+    }
     changed = {v for v, angle in fitted(signer, closed).items() if angle != closed[v]}
     assert changed
     assert all(signer.coordinates.names[v].startswith("thumb_R") for v in changed)
+
+
+def test_nobody_stretches_straight_fingers_to_zero(signer: Rig) -> None:
+    report = run(signer, *morphs(**FLAT))
+    angles = {
+        f: [report.coordinates[signer.coordinates.index[f"{f}_R_{k}.flexion"]] for k in (1, 2, 3)]
+        for f in FINGERS
+    }
+    assert all(3.0 <= np.degrees(a) <= 15.0 for joints in angles.values() for a in joints)
+    assert len({tuple(joints) for joints in angles.values()}) >= 3, (
+        "and no finger is another's copy"
+    )
+    assert all(name.split("_")[0] in (*FINGERS, "thumb") for name in STRAIGHT)
+
+
+@pytest.mark.parametrize("body", ["signer", "child", "heavy", "game"])
+def test_a_fist_bends_the_end_joints_and_the_thumb_lies_across_it(body: str) -> None:
+    rig = load_rig(body)
+    report = run(rig, Morph("fist_close", S, 1.0))
+    assert report.met
+    for finger in FINGERS:
+        end = report.coordinates[rig.coordinates.index[f"{finger}_R_3.flexion"]]
+        assert 35.0 <= np.degrees(end) <= 60.0, finger
+    frames = rig.chain.frames(report.coordinates)
+    tip, index = (rig.sites[name].point(frames) for name in ("T_TIP_R", "I_KN_R_2"))
+    towards_thumb = frames.rotations[rig.bones["palm_R"].node][:, 0]
+    beyond_index = towards_thumb @ (index - tip) / rig.landmarks.arm_m
+    assert 0.04 < beyond_index < 0.12, "before the middle and ring fingers"
 
 
 def test_each_hand_is_fitted_by_itself_and_both_alike(signer: Rig) -> None:
     index, names = signer.coordinates.index, signer.coordinates.names
     asked = {
         side: {
-            index[name]: angle
+            index[name]: straight(name) + angle
             for name, angle in signer.skeletal_morphs[f"fist_close_{side}"].items()
         }
         for side in "LR"

@@ -48,6 +48,7 @@ from azee_solver.geometry import (
     VTranslate,
     WorldPoint,
 )
+from azee_solver.handshape import straight
 from azee_solver.options import SolveOptions
 from azee_solver.solve import solve
 from azee_solver.solve_report import SolveReport
@@ -174,7 +175,9 @@ def test_facial_morphs_are_passed_over() -> None:
 
 def test_morphs_set_coordinates_and_add() -> None:
     report = run(Morph("index_bend", S, 0.25), Morph("index_bend", S, 0.5))
-    assert value(report, "index_R_1.flexion") == pytest.approx(67.5)
+    assert value(report, "index_R_1.flexion") == pytest.approx(
+        67.5 + math.degrees(straight("index_R_1.flexion"))
+    )
     assert report.met
 
 
@@ -302,7 +305,7 @@ def test_near_the_end_of_all_bones_a_limit_stops_a_place_and_beyond_it_nothing_w
 
 def test_a_morph_beyond_its_limit_is_named() -> None:
     report = run(Morph("index_hook", S, 1.2))
-    assert reason(report) == "limit of index_R_2.flexion by 18.0°"
+    assert reason(report) == "limit of index_R_2.flexion by 24.0°"
     assert value(report, "index_R_2.flexion") == pytest.approx(90)
 
 

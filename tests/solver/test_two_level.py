@@ -14,6 +14,7 @@ from azee_rig.rig import Rig
 from azee_solver import group_search, two_level
 from azee_solver.constraint import Constraint, Morph, Orient, Place, Relation
 from azee_solver.geometry import Bone, Dir, FreePoint, Side, Site, Vec
+from azee_solver.handshape import straight
 from azee_solver.solve_report import SolveReport
 from azee_solver.tolerance import PAPER
 from azee_solver.two_level import MAX_ITERATIONS, solve_two_level
@@ -100,7 +101,9 @@ def test_limits_presets_and_fixed_coordinates_hold() -> None:
     )
     q = report.coordinates
     assert np.all((limits.lower <= q) & (q <= limits.upper))
-    assert q[limits.index["index_R_1.flexion"]] == pytest.approx(math.pi / 4)
+    assert q[limits.index["index_R_1.flexion"]] == pytest.approx(
+        math.pi / 4 + straight("index_R_1.flexion")
+    )
     assert all(q[v] == limits.idle[v] for v in elbow)
 
 

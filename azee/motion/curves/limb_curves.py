@@ -53,18 +53,26 @@ PEAK_SPEED, PEAK_ACCELERATION, PEAK_JERK = 1.875, 10.0 / math.sqrt(3.0), 60.0
 LONGEST_CALM_S = 0.7
 
 
-def calm_transition_s(a: Array, b: Array) -> float:
+CALM_M_S = 2.0
+"""Largest speed of a wrist that has time: people who sign rarely exceed it (docs/likeness.md)."""
+PEAK_SPEED = 1.875
+"""Largest s′."""
+
+
+def calm_transition_s(a: Array, b: Array, way_m: float = 0.0) -> float:
     """Time in which a limb moves calmly from one posture to another by minimum jerk.
 
     With d = max|a − b|, no coordinate exceeds the acceleration A or the jerk J of a limb that has
     time if T ≥ √(PEAK_ACCELERATION · d / A) and T ≥ ∛(PEAK_JERK · d / J); T is kept between
-    `SHORTEST_S` and `LONGEST_CALM_S`. Before, transitions of half a second at most turned forearms
-    by 120° in that time (ADR 30).
+    `SHORTEST_S` and `LONGEST_CALM_S`. A wrist that goes L = way_m does not exceed its speed v if
+    T ≥ PEAK_SPEED · L / v, however long that is. Before, transitions of half a second at most
+    turned forearms by 120° in that time (ADR 30).
     """
     turn = float(np.max(np.abs(a - b), initial=0.0))
     by_acceleration = math.sqrt(PEAK_ACCELERATION * turn / CALM_RAD_S2)
     by_jerk = math.cbrt(PEAK_JERK * turn / CALM_RAD_S3)
-    return min(max(by_acceleration, by_jerk, SHORTEST_S), LONGEST_CALM_S)
+    by_turn = min(max(by_acceleration, by_jerk, SHORTEST_S), LONGEST_CALM_S)
+    return max(by_turn, PEAK_SPEED * way_m / CALM_M_S)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -22,8 +22,14 @@ from azee.motion.tasks.key_posture import KeyPosture
 from azee.motion.tasks.limbs import Limbs, channel_of_limb, is_finger, place_in_arm
 from azee.score.interval import Interval
 from azee_rig.coordinates import Coordinates
+from azee_rig.rig import Rig
 
 Array = NDArray[np.float64]
+
+WAY_PARTS = 4
+"""Parts of a way from or to rest whose lengths are measured."""
+AT_ONCE = 256
+"""Postures that are measured together."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,12 +52,12 @@ class Movement:
 
     @property
     def start_s(self) -> float:
-        """When the first limb leaves neutral."""
+        """When the first limb leaves its rest."""
         return min((c.start_s for c in self.curves.values() if c.keys), default=0.0)
 
     @property
     def end_s(self) -> float:
-        """When the last limb is back at neutral."""
+        """When the last limb is back at rest."""
         return max((c.end_s for c in self.curves.values() if c.keys), default=0.0)
 
 
@@ -59,19 +65,21 @@ class Movement:
 class Interpolation:
     """Joins key postures to a movement, limb by limb.
 
-    limbs_in_use: limbs that something needs, by when. hands_together: an arm and its fingers leave
-    neutral and return to it in the same time; otherwise each limb takes its own.
+    limbs_in_use: limbs that something needs, by when. rest: (V,) where limbs are that nothing
+    needs. hands_together: an arm and its fingers leave their rest and return to it in the same
+    time; otherwise each limb takes its own.
     """
 
-    coordinates: Coordinates
+    rig: Rig
     limbs: Limbs
     limbs_in_use: IntervalIndex[frozenset[str]]
+    rest: Array
     hands_together: bool = True
 
     def through(self, postures: Iterable[KeyPosture]) -> Movement:
         """Return the movement through key postures: each limb goes through those that key it."""
         ordered = sorted(postures, key=lambda p: p.time)
-        times = {p: self._neutral_s(p) for p in ordered} if self.hands_together else {}
+        times = self._rest_s(ordered) if self.hands_together else {}
         curves = {}
         for limb, members in self.limbs.members.items():
             own = [p for p in ordered if limb in p.limbs]
@@ -83,12 +91,12 @@ class Interpolation:
                 )
                 for p, h in zip(own, [*held, False], strict=False)
             ]  # fmt: skip
-            curves[limb] = limb_curve(keys, self.coordinates.idle[members], self._onsets(limb))
-        return Movement(self.coordinates, self.limbs, curves)
+            curves[limb] = limb_curve(keys, self.rest[members], self._onsets(limb))
+        return Movement(self.rig.coordinates, self.limbs, curves)
 
     def _onsets(self, limb: str) -> Onsets | None:
         """Return when the coordinates of a limb set out; none if all do at once."""
-        names = [self.coordinates.names[v] for v in self.limbs.members[limb]]
+        names = [self.rig.coordinates.names[v] for v in self.limbs.members[limb]]
         places = np.array([place_in_arm(name) for name in names])
         fingers = is_finger(limb)
         if not self.hands_together or not (fingers or places.any()):
@@ -102,21 +110,52 @@ class Interpolation:
             for needed in self.limbs_in_use.covering(Interval(a.time, b.time))
         )
 
-    def _neutral_s(self, posture: KeyPosture) -> dict[str, float]:
-        """Time from or to neutral that each limb takes together with what moves with it.
+    def _rest_s(self, postures: Sequence[KeyPosture]) -> dict[KeyPosture, dict[str, float]]:
+        """Return the times from or to rest that limbs take together with what moves with them.
 
         The fingers form a handshape while the arm brings the hand there: all of a hand's limbs
-        that the posture keys take as long as the slowest of them.
+        that a posture keys take as long as the slowest of them.
         """
-        q, neutral = posture.coordinates, self.coordinates.idle
-        members = self.limbs.members
-        own = {limb: calm_transition_s(q[members[limb]], neutral[members[limb]])
-               for limb in posture.limbs}  # fmt: skip
-        slowest: dict[str, float] = {}
-        for limb, seconds in own.items():
-            if channel_of_limb(limb) == "hands":
-                slowest[limb[-2:]] = max(seconds, slowest.get(limb[-2:], 0.0))
-        return {
-            limb: slowest[limb[-2:]] if channel_of_limb(limb) == "hands" else seconds
-            for limb, seconds in own.items()
+        ways, members = self._wrist_ways_m(postures), self.limbs.members
+        out = {}
+        for posture in postures:
+            q = posture.coordinates
+            own = {
+                limb: calm_transition_s(
+                    q[members[limb]], self.rest[members[limb]], ways[posture].get(limb, 0.0)
+                )
+                for limb in posture.limbs
+            }
+            slowest: dict[str, float] = {}
+            for limb, seconds in own.items():
+                if channel_of_limb(limb) == "hands":
+                    slowest[limb[-2:]] = max(seconds, slowest.get(limb[-2:], 0.0))
+            out[posture] = {
+                limb: slowest[limb[-2:]] if channel_of_limb(limb) == "hands" else seconds
+                for limb, seconds in own.items()
+            }
+        return out
+
+    def _wrist_ways_m(
+        self, postures: Sequence[KeyPosture]
+    ) -> dict[KeyPosture, Mapping[str, float]]:
+        """Return the ways of the wrists between each posture and rest, by arm, metres.
+
+        A way is as long as if it went all at the speed of its fastest part, of `WAY_PARTS` between
+        postures at even shares of the transition: so bounds of speeds hold on all of it.
+        """
+        arms = {
+            f"arm_{side}": self.rig.bones[f"palm_{side}"].origin_node
+            for side in "LR"
+            if f"palm_{side}" in self.rig.bones and f"arm_{side}" in self.limbs.members
         }
+        out: dict[KeyPosture, Mapping[str, float]] = {}
+        shares = np.linspace(0.0, 1.0, WAY_PARTS + 1)[:, None]
+        for start in range(0, len(postures), AT_ONCE):
+            some = postures[start : start + AT_ONCE]
+            q = np.stack([self.rest + shares * (p.coordinates - self.rest) for p in some])
+            at = self.rig.chain.frames(q).positions[..., [*arms.values()], :]
+            parts = np.linalg.norm(np.diff(at, axis=1), axis=-1)
+            for posture, longest in zip(some, WAY_PARTS * parts.max(axis=1), strict=True):
+                out[posture] = dict(zip(arms, longest.tolist(), strict=True))
+        return out

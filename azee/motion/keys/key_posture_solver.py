@@ -35,7 +35,7 @@ class KeyPostureSolver:
     one block goes on constraining, so that no sign inherits an odd elbow from the last one.
 
     path_motions: by when they are between their placements. neutral: knows which limbs have
-    returned to neutral. current: (V,) the body after the last accepted posture.
+    returned to rest. current: (V,) the body after the last accepted posture.
     """
 
     coordinates: Coordinates
@@ -55,7 +55,7 @@ class KeyPostureSolver:
         return self.selection.limbs
 
     def __post_init__(self) -> None:
-        self.current = np.array(self.coordinates.idle)
+        self.current = np.array(self.neutral.posture)
 
     def solve(
         self,
@@ -162,7 +162,7 @@ class KeyPostureSolver:
 
         So a head that a glance has bent comes up again though its chin is still raised.
         """
-        neutral = self.coordinates.idle
+        neutral = self.neutral.posture
         return frozenset(
             limb
             for limb, since in self._released_with(tasks).items()

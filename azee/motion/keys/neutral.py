@@ -1,4 +1,4 @@
-"""Which limbs have returned to the neutral posture by an instant."""
+"""Which limbs have returned to rest by an instant."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ follows the head back."""
 class ReturnToNeutral:
     """Records when limbs were needed, as key postures are solved in order of time.
 
-    tasks: all tasks of postures of a score. neutral: (V,) the posture to return to.
+    tasks: all tasks of postures of a score. posture: (V,) the rest to return to.
     """
 
     tasks: Iterable[TimedTask]
     limbs: Limbs
-    neutral: Array
+    posture: Array
     _starts: dict[str, list[Fraction]] = field(init=False)
     """When tasks that move a limb begin, increasing."""
     _needed: dict[str, Fraction] = field(init=False, default_factory=dict)
@@ -62,7 +62,7 @@ class ReturnToNeutral:
         return math.inf if moved is None else float(time - moved)
 
     def posture_at(self, current: Array, last: KeyPosture | None, time: Fraction) -> Array:
-        """Return a posture with those limbs at neutral that have returned by an instant, (V,).
+        """Return a posture with those limbs at rest that have returned by an instant, (V,).
 
         Args: current: (V,) the posture before. last: the key posture it belongs to.
         """
@@ -71,9 +71,9 @@ class ReturnToNeutral:
         if last is not None:
             going_on = [t for t in last.timed_tasks if t.interval.end >= time]
         for limb, members in self.limbs.members.items():
-            needs_s = transition_s(current[members], self.neutral[members])
+            needs_s = transition_s(current[members], self.posture[members])
             if self._has_returned(limb, time, last, going_on, needs_s):
-                out[members] = self.neutral[members]
+                out[members] = self.posture[members]
         return out
 
     def _has_returned(

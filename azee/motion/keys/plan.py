@@ -9,6 +9,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+import numpy as np
+from numpy.typing import NDArray
+
 from azee.motion.curves.avoidance import CollisionAvoidance
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.movement import Interpolation, Movement
@@ -30,6 +33,8 @@ from azee.motion.tasks.key_selection import KeySelection
 from azee.motion.tasks.schedule import TaskSchedule
 from azee_solver.evaluate import Evaluator
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan:
@@ -49,11 +54,13 @@ def plan(
     selection: KeySelection,
     solver: PostureSolver,
     frame_times: Sequence[Fraction],
+    rest: Array,
     needed_s: NeededTime | None = None,
 ) -> Plan:
     """Plan the movement that meets a schedule at the given frames inside the score.
 
-    Args: needed_s: what a block that ends early leaves for the way; a quick transition by default.
+    Args: rest: (V,) the posture in which limbs are that nothing needs. needed_s: what a block that
+        ends early leaves for the way; a quick transition by default.
     """
     coordinates, limbs = evaluator.rig.coordinates, selection.limbs
 
@@ -62,13 +69,15 @@ def plan(
     deferred = boundaries_on_paths(motions, schedule)
 
     # 5. Solve a key posture at every boundary of blocks, in order of time; those on paths wait.
-    neutral = ReturnToNeutral(schedule.posture_tasks, limbs, coordinates.idle)
+    neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
     key_solver = KeyPostureSolver(coordinates, selection, solver, index_by_time(motions), neutral)
     boundaries = solve_boundaries(schedule, key_solver, evaluator.binding, deferred, needed_s)
 
     # 6. Join the key postures to a movement, limb by limb, by minimum jerk.
     in_use = limbs_in_use(schedule, motions)
-    interpolation = Interpolation(coordinates, limbs, in_use, hands_together=not selection.flat)
+    interpolation = Interpolation(
+        evaluator.rig, limbs, in_use, rest, hands_together=not selection.flat
+    )
     monitor = ResidualMonitor(evaluator, schedule, {}, boundaries.early_ends)
     in_between = InBetweenSolver(monitor, selection, solver, boundaries.unmet)
     keys = PathKeys(motions, [*boundaries.postures], in_between, interpolation, frame_times)

@@ -24,6 +24,9 @@ from azee_rig.rig import Rig
 
 Array = NDArray[np.float64]
 
+BEFORE_S, AFTER_S = 0.3, 0.5
+"""How long the signer stands at rest before and after all movement, at least."""
+
 DRIFT_HZ = (0.12, 2.2)
 SLOW_DRIFT_HZ = (0.1, 0.9)
 _SINES = 9

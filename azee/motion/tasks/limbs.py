@@ -35,6 +35,9 @@ TRUNK = "trunk"
 CARRIERS = (TRUNK, "head")
 """Limbs that carry others: where they turn, arms, head or eyes go along."""
 
+NON_MANUAL = (TRUNK, "head", "eyes", "face")
+"""What constraints name beside arms and fingers."""
+
 _FINGER = re.compile(r"((?:thumb|index|middle|ring|little)_[LR])(?:_\d)?")
 _ARM = re.compile(r"(?:clav|arm|f_arm|palm)_([LR])")
 

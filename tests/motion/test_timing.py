@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 import azee
 from azee.animation import Animation, animate
 from azee.clip.spline import minimum_jerk
+from azee.motion.curves.limb_curves import ONSET_SPREAD_S
 from azee.motion.tasks.key_posture import Search
 from azee.motion.tasks.limbs import Limbs
 from azee.motion.timing.accents import is_accent
@@ -152,7 +153,8 @@ def test_at_the_time_needed_the_wrist_is_as_fast_as_the_pace_allows() -> None:
     at = np.linspace(0.0, 1.0, 2001)
     q = before + (after - before) * np.asarray(minimum_jerk(at))[:, None]
     wrist = rig().chain.frames(q).positions[:, rig().bones["palm_R"].origin_node]
-    speed = np.linalg.norm(np.diff(wrist, axis=0), axis=1).max() * 2000 / needed_s
+    together_s = needed_s - ONSET_SPREAD_S
+    speed = np.linalg.norm(np.diff(wrist, axis=0), axis=1).max() * 2000 / together_s
     assert ways.scale * speed == pytest.approx(2.0, rel=0.01)
     assert ways.needed_s(before, after, frozenset(("arm_L",))) == 0.0
     assert ways.needed_s(before, after, frozenset(("head",))) == 0.0
@@ -218,7 +220,7 @@ def test_a_block_that_must_end_early_gives_time_but_keeps_its_core() -> None:
 def test_where_half_a_block_was_its_core_another_round_gives_the_rest() -> None:
     score = sync(block("A", "0", ".2", LEFT), block("B", ".2", ".4", RIGHT))
     animation = played(score)
-    assert largest(animation)[0] < 2.1
+    assert largest(animation)[0] < 2.2
     (stretch,) = animation.report.stretched
     assert stretch.performed_s >= stretch.way.needed_s
     assert float(stretch.performed_s - stretch.score_s) == pytest.approx(animation.report.extra_s)
@@ -233,7 +235,7 @@ def test_a_short_way_gets_time_to_gather_speed() -> None:
     assert largest(played(score, "exact"))[1] > 80
 
 
-def test_a_way_between_boundaries_of_an_accent_is_tried_once() -> None:
+def test_a_hand_that_is_held_over_a_swaying_trunk_needs_no_time() -> None:
     def sway(n: int) -> Block:
         lean = Rotate(Bone("back_1"), UP, math.radians(15 * (-1) ** n))
         return block(str(n), f"{n * 0.08:.2f}", ".03", lean)
@@ -243,9 +245,7 @@ def test_a_way_between_boundaries_of_an_accent_is_tried_once() -> None:
     animation = played(sync(held, inside("SWAY", "1", accent)))
     assert isinstance(animation.score, Group)
     assert animation.score.block("SWAY").score == accent
-    needed = [s.way.needed_s - s.way.interval.duration for s in animation.report.stretched]
-    assert needed
-    assert animation.report.extra_s <= float(sum(needed)) + 0.01
+    assert animation.report.stretched == ()
 
 
 def test_a_palm_that_turns_in_its_place_gets_time_too() -> None:

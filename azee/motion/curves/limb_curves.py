@@ -44,6 +44,9 @@ def transition_s(a: Array, b: Array) -> float:
     return SHORTEST_S + (LONGEST_S - SHORTEST_S) * min(1.0, share)
 
 
+ONSET_SPREAD_S = 0.06
+"""Between the onsets of the first and the last joint of an arm: people have 20 to 80 ms."""
+
 CALM_RAD_S2 = math.radians(2000.0)
 """Largest acceleration of a limb that has time."""
 CALM_RAD_S3 = math.radians(30_000.0)
@@ -72,7 +75,8 @@ def calm_transition_s(a: Array, b: Array, way_m: float = 0.0) -> float:
     by_acceleration = math.sqrt(PEAK_ACCELERATION * turn / CALM_RAD_S2)
     by_jerk = math.cbrt(PEAK_JERK * turn / CALM_RAD_S3)
     by_turn = min(max(by_acceleration, by_jerk, SHORTEST_S), LONGEST_CALM_S)
-    return max(by_turn, PEAK_SPEED * way_m / CALM_M_S)
+    by_way = PEAK_SPEED * way_m / CALM_M_S
+    return max(by_turn, by_way + ONSET_SPREAD_S if way_m else 0.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,8 +99,6 @@ class LimbKey:
         return transition_s(self.values, neutral) if self.neutral_s is None else self.neutral_s
 
 
-ONSET_SPREAD_S = 0.06
-"""Between the onsets of the first and the last joint of an arm: people have 20 to 80 ms."""
 SPREAD_SHARE = 0.2
 """The spread is at most this share of a movement's time."""
 FINGERS_DONE = 0.65

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.spline import minimum_jerk
+from azee.motion.curves.limb_curves import ONSET_SPREAD_S
 from azee.motion.curves.movement import Movement
 from azee.motion.keys.transpath import AnchoredPath, PathMotion
 from azee.motion.tasks.key_posture import KeyPosture
@@ -58,13 +59,17 @@ class Ways:
         return SHOULDERS_M / float(np.linalg.norm(left - right))
 
     def needed_s(self, before: Array, after: Array, limbs: frozenset[str]) -> float:
-        """Return how long those of some limbs that are arms need between two postures, (V,)."""
+        """Return how long those of some limbs that are arms need between two postures, (V,).
+
+        Their joints do not set out together: each has so much less time than the whole.
+        """
         q = _between(before, after)
         sides = [s for s in SIDES if f"arm_{s}" in limbs]
         if not sides:
             return 0.0
         frames = self.evaluator.rig.chain.frames(q)
-        return max(self._measured(s, frames, q, 1.0)[0] for s in sides)
+        needed = max(self._measured(s, frames, q, 1.0)[0] for s in sides)
+        return needed + ONSET_SPREAD_S if needed > 0.0 else 0.0
 
     def between_keys(
         self,

@@ -46,12 +46,14 @@ class Compilation:
     score: nested blocks of constraints; times in seconds. rig: the body. animation: the clip and
     the report, and the times of the keys of every part of the body. left_out: a warning for each
     name of a bone, site or morph that the body lacks; constraints with that name were left out.
+    unshown: a warning for each movement that is too fast for the clip's frames.
     """
 
     score: Score
     rig: Rig
     animation: Animation
     left_out: tuple[Diagnostic, ...] = ()
+    unshown: tuple[Diagnostic, ...] = ()
 
     @property
     def clip(self) -> Clip:
@@ -208,6 +210,7 @@ def perform(
     """
     from azee.animation import animate
     from azee.clip.resample import TooManyFramesError, frame_count
+    from azee.lang.unshowable import beyond_frames
 
     _require_options(dominant, fps, mode, seed, life, solver)
     require_switch(strict_body, "strict_body")
@@ -228,7 +231,7 @@ def perform(
     animation = animate(
         score, rig, fps=rate(fps), dominant=side, mode=mode, seed=seed, life=life, solver=postures
     )
-    return Compilation(score, rig, animation, missing)
+    return Compilation(score, rig, animation, missing, tuple(beyond_frames(score, float(fps))))
 
 
 def _require_options(

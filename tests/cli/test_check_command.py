@@ -146,3 +146,10 @@ def test_colours_only_where_somebody_looks(
     monkeypatch.setenv("NO_COLOR", "1")
     run(["check", "faulty.azee"])
     assert "\x1b[" not in capsys.readouterr().err
+
+
+def test_an_expression_is_warned_of_what_no_body_shows(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "-e", "key 1 (morph 'AU12 5)"]) == 0
+    told = capsys.readouterr().err
+    assert "warning[beyond-body]: no face shows `'AU12` with weight 5" in told
+    assert told.endswith("1 expression: 1 warning\n")

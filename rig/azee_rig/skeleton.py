@@ -12,7 +12,10 @@ Number = TypeVar("Number", bound=np.generic)
 
 
 def frozen(array: ArrayLike, dtype: type[Number]) -> NDArray[Number]:
-    """Return a read-only copy of an array."""
+    """Return a read-only copy of an array; an array that nobody can write to is its own copy."""
+    known = isinstance(array, np.ndarray) and array.dtype == dtype
+    if known and array.base is None and not array.flags.writeable:
+        return array
     copy = np.array(array, dtype=dtype)
     copy.setflags(write=False)
     return copy

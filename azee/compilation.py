@@ -275,7 +275,7 @@ def _lacking(errors: Sequence[BindingError], rig: Rig, *, strict: bool) -> Diagn
     kind = first.code.removeprefix("rig-lacks-")
     place = first.origin
     written = (f"written at {place.file}:{place.line}:{place.column}",) if place else ()
-    message = f"the rig `{rig.name}` has no {kind} `{first.name}`"
+    message = f"the rig `{rig.name}` has no {kind} `{first.text}`"
     if strict:
         return Diagnostic(first.code, message, None, notes=written)
     many = counted(len(errors), "constraint")

@@ -125,13 +125,13 @@ def test_a_text_is_bound_to_a_body_when_asked(
     strict = ["check", "--quiet", "--strict-body", "--rig", "signer"]
     assert run([*strict, "touch.azee"]) == 1
     told = capsys.readouterr().err
-    assert "error[rig-lacks-site]: the rig `signer` has no site `CH`" in told
+    assert "error[rig-lacks-site]: the rig `signer` has no site `@CH`" in told
     assert "note: written at touch.azee:1:8" in told
     assert run([*strict, "-e", "key 1 (place @I_TIP(s) @CH)"]) == 1
     assert "error[rig-lacks-site]" in capsys.readouterr().err
     assert run(["check", "--rig", "signer", "touch.azee"]) == 0
     told = capsys.readouterr().err
-    lacking = "warning[rig-lacks-site]: the rig `signer` has no site `CH`"
+    lacking = "warning[rig-lacks-site]: the rig `signer` has no site `@CH`"
     assert f"{lacking}; 1 constraint with it left out" in told
 
 

@@ -221,7 +221,7 @@ def test_a_rig_that_lacks_a_name_signs_the_rest_or_is_refused() -> None:
     with pytest.raises(azee.AZeeError, match="rig-lacks-site") as caught:
         perform(score, replace(rig, sites=sites), strict_body=True)
     (diagnostic,) = caught.value.diagnostics
-    assert "`CH`" in diagnostic.message
+    assert "`@CH`" in diagnostic.message
     made = perform(score, replace(rig, sites=sites))
     (warning,) = made.left_out
     assert (warning.code, warning.severity.value) == ("rig-lacks-site", "warning")

@@ -50,12 +50,14 @@ class Compilation:
     the clip and the report, and the times of the keys of every part of the body. left_out: a
     warning for each name of a bone, site or morph that the body lacks; constraints with that name
     were left out.
+    unshown: a warning for each movement that is too fast for the clip's frames.
     """
 
     score: Score
     rig: Rig
     animation: Animation
     left_out: tuple[Diagnostic, ...] = ()
+    unshown: tuple[Diagnostic, ...] = ()
 
     @property
     def clip(self) -> Clip:
@@ -229,6 +231,7 @@ def perform(
     """
     from azee.animation import animate
     from azee.clip.resample import TooManyFramesError, frame_count
+    from azee.lang.unshowable import beyond_frames
 
     _require_options(dominant, fps, mode, seed, life, rest, solver, timing, tempo)
     require_switch(strict_body, "strict_body")
@@ -259,7 +262,8 @@ def perform(
         timing=timing,
         tempo=float(tempo),
     )
-    return Compilation(animation.score, rig, animation, missing)
+    unshown = tuple(beyond_frames(animation.score, float(fps)))
+    return Compilation(animation.score, rig, animation, missing, unshown)
 
 
 def _require_options(
@@ -317,7 +321,7 @@ def _lacking(errors: Sequence[BindingError], rig: Rig, *, strict: bool) -> Diagn
     kind = first.code.removeprefix("rig-lacks-")
     place = first.origin
     written = (f"written at {place.file}:{place.line}:{place.column}",) if place else ()
-    message = f"the rig `{rig.name}` has no {kind} `{first.name}`"
+    message = f"the rig `{rig.name}` has no {kind} `{first.text}`"
     if strict:
         return Diagnostic(first.code, message, None, notes=written)
     many = counted(len(errors), "constraint")

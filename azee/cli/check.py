@@ -70,6 +70,7 @@ def _checked(
         if has_errors(found) or (expression is None and body is None):
             return found
         scores = program.utterances if expression is None else [program.evaluate(expression)]
+        found = [*found, *chain.from_iterable(score.warnings for score in scores)]
         if body is None:
             return found
         lacking = (lacks(score.score, body, strict=strict_body) for score in scores)

@@ -26,10 +26,11 @@ from azee.formats import FILM_SUFFIXES, WRITERS
 from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
-    from azee.compilation import Hand, Method
+    from azee.compilation import Compilation, Hand, Method
     from azee.motion.keys.rest import Rest
     from azee.motion.tasks.key_selection import Mode
     from azee.motion.timing.performed import Timing
+    from azee_grammar.diagnostic import Diagnostic
 
 
 @click.command("compile", short_help="A text as a moving body: GLB, BVH, films and more.")
@@ -178,15 +179,19 @@ def compile_(
             measured = made.report_json()
         show_json(
             {
-                "diagnostics": as_json([*text.warnings, *made.left_out]),
+                "diagnostics": as_json(_warnings(text, made)),
                 "outputs": [str(path) for path in outputs],
                 "report": measured,
                 **({"profile": watch.as_json()} if profile else {}),
             }
         )
     else:
-        show([*text.warnings, *made.left_out])
+        show(_warnings(text, made))
         news(outcome_lines(made, files), quiet=quiet)
         if profile:
             watch.show()
     return MISSED if strict and not made.report.met else DONE
+
+
+def _warnings(text: Text, made: Compilation) -> list[Diagnostic]:
+    return [*text.warnings, *made.left_out, *made.unshown]

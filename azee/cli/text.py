@@ -132,5 +132,8 @@ class Text:
 
     @property
     def warnings(self) -> tuple[Diagnostic, ...]:
-        """What else there is to say about the text."""
-        return self.program.check()
+        """What else there is to say about the text, then about the expression."""
+        found = self.program.check()
+        if self.expression is None:
+            return found
+        return (*found, *self.program.evaluate(self.expression).warnings)

@@ -64,8 +64,8 @@ def parse_bvh(text: str, unit: str | None = None) -> Recording:
     width = sum(len(j.channels) for j in joints)
     if not width:
         raise BvhError("no joint has a channel: nothing can move")
-    line = text.count("\n", 0, found.end()) + 1
-    times, values = read_motion(text[found.end() :], line, width, notes)
+    times, values = read_motion(text, found.end(), width, notes)
+    del text, found  # as large as half of the arrays together
     try:
         return _recording(joints, times, values, unit, notes)
     except ValueError as error:
@@ -115,12 +115,15 @@ def _recording(
     places, turned = first.frames()
     ends = {j: places[0, j] + turned[0, j] @ tip / largest for j, tip in tips.items()}
     metre = UNITS_M[unit] if unit else _guessed_unit(joints, places[0], ends, largest, notes)
+    translations *= metre
+    for array in (times, rotations, translations):
+        array.setflags(write=False)  # a recording need not copy them
     return Recording(
         Skeleton(names, parents, offsets * metre),
         {j: tip * metre for j, tip in tips.items()},
         times,
         rotations,
-        translations * metre,
+        translations,
         tuple(notes),
     )
 
@@ -133,7 +136,8 @@ def _placed(
     notes: list[str],
 ) -> Floats:
     """Places of joints in their parents, (T, J, 3): OFFSETs, but where position channels say."""
-    translations = np.tile(offsets, (count, 1, 1))
+    translations = np.empty((count, *offsets.shape))
+    translations[:] = offsets
     for j, channels in moved.items():
         for axis, values in channels.items():
             translations[:, j, axis] = values

@@ -32,14 +32,15 @@ _FRAMES = re.compile(r"\s*Frames\s*:\s*(\S+)", re.IGNORECASE)
 _FRAME_TIME = re.compile(r"\s*Frame\s+Time\s*:\s*(\S+)", re.IGNORECASE)
 
 
-def read_motion(text: str, line: int, width: int, notes: list[str]) -> tuple[Floats, Floats]:
+def read_motion(text: str, start: int, width: int, notes: list[str]) -> tuple[Floats, Floats]:
     """Read the times (T,) of frames, seconds, and the values (T, width) of all channels.
 
-    Args: text: what stands after MOTION, from a line on. notes: grows by what was put right.
+    Args: text: of the file; the motion starts at `start`, after MOTION. notes: grows by what was
+        put right.
     Raises: BvhError: a value is no number, or there is no whole frame.
     """
-    declared, step, start = _header(text)
-    values = _values(text[start:], line + text.count("\n", 0, start), width, notes)
+    declared, step, start = _header(text, start)
+    values = _values(text, start, width, notes)
     count = len(values)
     if declared != count:
         said = "no number of frames" if declared is None else f"{declared:g} frames"
@@ -48,10 +49,9 @@ def read_motion(text: str, line: int, width: int, notes: list[str]) -> tuple[Flo
     return np.arange(count, dtype=np.float64) * seconds, values
 
 
-def _header(text: str) -> tuple[float | None, str | None, int]:
+def _header(text: str, start: int) -> tuple[float | None, str | None, int]:
     """Return the number of frames and the frame time as written, and where both end."""
     frames = step = None
-    start = 0
     while True:
         if frames is None and (found := _FRAMES.match(text, start)):
             frames, start = found[1], found.end()
@@ -103,15 +103,15 @@ def _usual(rate: float, share: float) -> bool:
     return any(abs(rate - usual) <= share * usual for usual in USUAL_RATES)
 
 
-def _values(text: str, line: int, width: int, notes: list[str]) -> Floats:
-    """Read all frames, (T, width).
+def _values(text: str, start: int, width: int, notes: list[str]) -> Floats:
+    """Read all frames, (T, width), which start at a place in the text.
 
     Where most lines have a value for each channel a line is a frame: no line lends another its
     values. Elsewhere frames go on over lines.
     """
     rows = [
         (number, part)
-        for number, row in _rows(text, line)
+        for number, row in _rows(text, start)
         for part in (np.split(row, len(row) // width) if len(row) % width == 0 else [row])
     ]
     whole = sum(len(row) == width for _, row in rows)
@@ -127,15 +127,19 @@ def _values(text: str, line: int, width: int, notes: list[str]) -> Floats:
 
 
 def _by_lines(rows: list[tuple[int, Floats]], width: int, notes: list[str]) -> Floats:
-    """Return frames that are a line each; what a line lacks comes from the nearest whole one."""
+    """Return frames that are a line each; what a line lacks comes from the nearest whole one.
+
+    The rows are taken from the list, so that they and the array are never there both.
+    """
     if (rest := len(rows[-1][1])) < width:
         notes.append(_cut_off(rest, width))
-        rows = rows[:-1]
+        rows.pop()
     odd = [(i, number, row) for i, (number, row) in enumerate(rows) if len(row) != width]
     good = np.array([i for i, (_, row) in enumerate(rows) if len(row) == width])
     values = np.empty((len(rows), width))
-    for i, (_, row) in enumerate(rows):
-        values[i, : min(len(row), width)] = row[:width]
+    while rows:
+        _, row = rows.pop()
+        values[len(rows), : min(len(row), width)] = row[:width]
     for i, _, row in odd:
         if len(row) < width:
             nearest = int(good[np.abs(good - i).argmin()])
@@ -156,13 +160,16 @@ def _cut_off(rest: int, width: int) -> str:
     return f"the last frame has {rest} of {width} values and is left out"
 
 
-def _rows(text: str, line: int) -> Iterator[tuple[int, Floats]]:
-    """Yield the lines that hold something, by number, as numbers.
+def _rows(text: str, start: int) -> Iterator[tuple[int, Floats]]:
+    """Yield the lines that hold something, from a place on, by number, as numbers.
 
     Raises: BvhError: a word is no number.
     """
-    for number, row in enumerate(text.split("\n"), line):
-        words = row.split()
+    number = text.count("\n", 0, start)
+    while start <= len(text):
+        end = text.find("\n", start)
+        end = len(text) if end < 0 else end
+        words, start, number = text[start:end].split(), end + 1, number + 1
         if not words:
             continue
         try:

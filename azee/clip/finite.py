@@ -24,8 +24,9 @@ def check_numbers(what: str, numbers: ArrayLike) -> None:
     array = np.asarray(numbers, dtype=np.float64)
     if not np.isfinite(array).all():
         raise ValueError(f"{what} are infinite or not numbers")
-    if array.size and np.abs(array).max() > LARGEST:
-        raise ValueError(f"{what} are as large as {np.abs(array).max():.3g}")
+    largest = max(-float(array.min(initial=0.0)), float(array.max(initial=0.0)))
+    if largest > LARGEST:
+        raise ValueError(f"{what} are as large as {largest:.3g}")
 
 
 def check_times(times: ArrayLike) -> None:

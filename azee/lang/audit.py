@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 from azee.lang.conflict import orient_conflict
+from azee.lang.unshowable import unshowable
 from azee.score.interval import Interval
 from azee.score.score import Hold, Key, Leaf, Score, leaves
 from azee_grammar.diagnostic import Diagnostic
@@ -18,6 +19,8 @@ SpanOf = Callable[[Origin], Span | None]
 
 def audit(score: Score, dominant: Side, span_of: SpanOf, whole: Span) -> Iterator[Diagnostic]:
     """Yield `orient-conflict`, `transpath-ends` and holds that have nothing to keep.
+
+    Warnings, `beyond-body` and `zero-vector`, come last.
 
     `span_of` finds the place of a constraint in the text; `whole` is the utterance.
     """
@@ -39,6 +42,7 @@ def audit(score: Score, dominant: Side, span_of: SpanOf, whole: Span) -> Iterato
             message += f" when the dominant hand is the {hand} one"
             yield Diagnostic("orient-conflict", message, where(constraints[number]))
     yield from _transpath_ends(found, dominant, where)
+    yield from unshowable(score, dominant, where)
 
 
 def _constraints(leaf: Leaf) -> tuple[Constraint, ...]:

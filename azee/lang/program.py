@@ -42,11 +42,15 @@ _MOST_CALLS = 12
 
 @dataclass(frozen=True, slots=True)
 class UtteranceScore:
-    """An utterance of a text, evaluated."""
+    """An utterance of a text, or an expression, evaluated.
+
+    warnings: of an expression; those of utterances are among what `Program.check` returns.
+    """
 
     label: str
     score: Score
     span: Span
+    warnings: tuple[Diagnostic, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,8 +122,9 @@ class Program:
         if not isinstance(value, ScoreValue):
             raise AZeeError(_not_a_score(value, expr))
         problems = audit(value.content, Side.RIGHT, self._span_of, expr.span)
-        self._require_sound(_tidy(problems, expr.span.source))
-        return UtteranceScore(_label(expr), value.content, expr.span)
+        found = _tidy(problems, expr.span.source)
+        self._require_sound(found)
+        return UtteranceScore(_label(expr), value.content, expr.span, found)
 
     def value(self, text: str, name: str = "<expression>") -> Value:
         """Evaluate one expression, with the rules of the text in scope, to a value of any kind.

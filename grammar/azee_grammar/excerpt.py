@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import unicodedata
 from dataclasses import dataclass
+from itertools import repeat
+from operator import itemgetter
 
 from azee_grammar.source import Span
 
@@ -32,9 +34,9 @@ class Excerpt:
         # Only what can be visible is examined: a line may have megabytes.
         skipped = max(0, start - 4 * WIDEST)
         cells = _cells(text[skipped : start + 4 * WIDEST])
-        before = sum(width for _, width in cells[: start - skipped])
-        under = sum(width for _, width in cells[start - skipped : end - skipped])
-        total = sum(width for _, width in cells)
+        before = _width_of(cells[: start - skipped])
+        under = _width_of(cells[start - skipped : end - skipped])
+        total = before + _width_of(cells[start - skipped :])
         if skipped or total > WIDEST or start + 4 * WIDEST < len(text):
             return cls._cut(cells, before, max(1, under), left=bool(skipped))
         line = "".join(shown for shown, _ in cells)
@@ -65,10 +67,12 @@ class Excerpt:
 
 def _cells(text: str) -> list[tuple[str, int]]:
     """Return for each character how it is shown, and over how many columns."""
+    if text.isascii() and text.isprintable():  # a text may have thousands of mistakes
+        return list(zip(text, repeat(1)))
     cells: list[tuple[str, int]] = []
     column = 0
     for c in text:
-        if " " <= c <= "~":  # most characters, and a text may have thousands of mistakes
+        if " " <= c <= "~":
             cells.append((c, 1))
             column += 1
             continue
@@ -81,6 +85,10 @@ def _cells(text: str) -> list[tuple[str, int]]:
         cells.append((shown, width))
         column += width
     return cells
+
+
+def _width_of(cells: list[tuple[str, int]]) -> int:
+    return sum(map(itemgetter(1), cells))
 
 
 def _width(c: str) -> int:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
+from functools import lru_cache
 
 _LONGEST = 64  # longer names get no suggestion, so that the search stays bounded
 
 
+@lru_cache(maxsize=4096)
 def folded(name: str) -> str:
     """Return the name without case, accents, hyphens, underscores and inner spaces."""
     parts = unicodedata.normalize("NFKD", name).casefold()
@@ -21,6 +23,12 @@ def nearest(name: str, known: Iterable[str], limit: int = 3) -> tuple[str, ...]:
     or that one name is the beginning of the other. Differences of case, accent and hyphen count
     least.
     """
+    return _nearest(name, tuple(known), limit)
+
+
+@lru_cache(maxsize=1024)
+def _nearest(name: str, known: tuple[str, ...], limit: int) -> tuple[str, ...]:
+    """Search once for a name that is misspelt a thousand times."""
     if not name or len(name) > _LONGEST:
         return ()
     wanted = folded(name)

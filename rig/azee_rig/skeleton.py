@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,10 +12,17 @@ Number = TypeVar("Number", bound=np.generic)
 
 
 def frozen(array: ArrayLike, dtype: type[Number]) -> NDArray[Number]:
-    """Return a read-only copy of an array."""
+    """Return a read-only copy of an array; an array that nobody can write to is its own copy."""
+    if isinstance(array, np.ndarray) and _is_frozen(array, dtype):
+        return array
     copy = np.array(array, dtype=dtype)
     copy.setflags(write=False)
     return copy
+
+
+def _is_frozen(array: NDArray[Any], dtype: type[np.generic]) -> bool:
+    """Whether an array is read-only and no view of one that is not."""
+    return array.dtype == dtype and array.base is None and not array.flags.writeable
 
 
 @dataclass(frozen=True, eq=False)

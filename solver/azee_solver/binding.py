@@ -19,6 +19,7 @@ from azee_solver.constraint import (
     Trill,
 )
 from azee_solver.geometry import Bone, Side, Site, depends_on
+from azee_solver.notation import part_text, subject_text
 
 if TYPE_CHECKING:
     from azee_rig.rig import BoneNodes, Rig, RigSite
@@ -28,12 +29,16 @@ class BindingError(Exception):
     """A rig lacks what a constraint names.
 
     code: `rig-lacks-bone`, `rig-lacks-site` or `rig-lacks-morph`. name: as the rig would call it.
-    origin: where the constraint was written, if known.
+    text: as AZee writes it. origin: where the constraint was written, if known.
     """
 
-    def __init__(self, code: str, name: str, origin: Origin | None = None) -> None:
+    def __init__(self, code: str, name: str, text: str, origin: Origin | None = None) -> None:
         super().__init__(f"{code}: {name}")
-        self.code, self.name, self.origin = code, name, origin
+        self.code, self.name, self.text, self.origin = code, name, text, origin
+
+    def at(self, origin: Origin | None) -> BindingError:
+        """Return it with the place where the constraint was written."""
+        return BindingError(self.code, self.name, self.text, origin)
 
 
 class Binding:
@@ -51,7 +56,7 @@ class Binding:
         try:
             return self.rig.bones[key]
         except KeyError:
-            raise BindingError("rig-lacks-bone", key) from None
+            raise BindingError("rig-lacks-bone", key, part_text(bone)) from None
 
     def site(self, site: Site) -> RigSite:
         """Return a site on the skin. Raises BindingError."""
@@ -59,7 +64,7 @@ class Binding:
         try:
             return self.rig.sites[key]
         except KeyError:
-            raise BindingError("rig-lacks-site", key) from None
+            raise BindingError("rig-lacks-site", key, part_text(site)) from None
 
     def is_skeletal(self, morph: Morph) -> bool:
         """Whether a morph moves joints, not the face. Raises BindingError."""
@@ -68,7 +73,8 @@ class Binding:
             return True
         if key in self.rig.face_morphs:
             return False
-        raise BindingError("rig-lacks-morph", key, morph.origin)
+        written = subject_text(morph).removeprefix("morph ")
+        raise BindingError("rig-lacks-morph", key, written, morph.origin)
 
     def preset(self, morph: Morph) -> dict[int, float]:
         """Coordinates that a skeletal morph moves, and by how much at its weight, radians."""
@@ -113,7 +119,7 @@ class Binding:
         try:
             _look_up(constraint, self)
         except BindingError as error:
-            raise BindingError(error.code, error.name, constraint.origin) from None
+            raise error.at(constraint.origin) from None
 
 
 @lru_cache(maxsize=4096)

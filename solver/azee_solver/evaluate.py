@@ -254,7 +254,7 @@ class Evaluator:
         try:
             return self._residual(constraint, frames, q, phase, among)
         except BindingError as error:
-            raise BindingError(error.code, error.name, constraint.origin) from None
+            raise error.at(constraint.origin) from None
 
     def _residual(
         self,

@@ -15,9 +15,12 @@ from __future__ import annotations
 
 import ctypes
 import math
+from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
+from weakref import ref
 
 import nlopt
 import numpy as np
@@ -164,6 +167,36 @@ def c_interface() -> ctypes.CDLL | None:
     return library
 
 
+class _Owned(ref["Compiled"]):
+    """NLopt's objects of one `Compiled`, by algorithm, for when it is gone.
+
+    They are not destroyed in its `__del__`: Python drops what is raised there, and so would lose a
+    Ctrl-C. What this calls instead, to append it to `_LET_GO`, is C, during which none is raised.
+    """
+
+    def __init__(self, owner: Compiled, callback: Callable[[_Owned], object]) -> None:
+        super().__init__(owner, callback)  # type: ignore[call-arg]  # takes both, says typeshed
+        self.optimisers: dict[int, int] = {}
+        _OWNED.add(self)
+
+
+_OWNED: set[_Owned] = set()
+"""All, as only one that is alive itself hears of its owner's end."""
+_LET_GO: deque[_Owned] = deque()
+"""Those whose owner is gone."""
+
+
+def _destroy_unowned(library: ctypes.CDLL) -> None:
+    """Destroy NLopt's objects of all that are gone."""
+    while _LET_GO:
+        with suppress(IndexError):  # another thread was faster
+            owned = _LET_GO.popleft()
+            _OWNED.discard(owned)
+            while owned.optimisers:
+                _, optimiser = owned.optimisers.popitem()
+                library.nlopt_destroy(optimiser)
+
+
 class Compiled:
     """Compiled code that NLopt can call, the problem it works on, and NLopt's objects for both.
 
@@ -183,16 +216,12 @@ class Compiled:
         self._x = np.empty(len(lower))
         self._at, self._value = address(self._x), ctypes.c_double()
         self._found = ctypes.byref(self._value)
-        self._optimisers: dict[int, int] = {}
+        self._optimisers = _Owned(self, _LET_GO.append).optimisers
         self._ends: dict[int, tuple[float, int]] = {}
-        self._destroy: Callable[[int], object] = int
         library = c_interface()
         if library is not None:
+            _destroy_unowned(library)
             self._optimiser(library, ALGORITHMS[0])
-
-    def __del__(self) -> None:
-        for optimiser in self._optimisers.values():
-            self._destroy(optimiser)
 
     def _optimiser(self, library: ctypes.CDLL, algorithm: int) -> int:
         """Return NLopt's object for an algorithm."""
@@ -202,7 +231,6 @@ class Compiled:
             if not optimiser:
                 raise MemoryError("NLopt")
             self._optimisers[algorithm] = optimiser
-            self._destroy = library.nlopt_destroy
             library.nlopt_set_lower_bounds(optimiser, address(self.lower))
             library.nlopt_set_upper_bounds(optimiser, address(self.upper))
             library.nlopt_set_min_objective(optimiser, self.function, self.block)

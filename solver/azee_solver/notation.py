@@ -83,10 +83,15 @@ def operator_text(constraint: Constraint) -> str:
 
 
 def problem_text(constraints: Iterable[Constraint]) -> str:
-    """Name constraints that are solved together: placements and gazes whole, others by subject."""
+    """Name constraints that are solved together: placements and gazes whole, others by subject.
+
+    A placement at a point that motion code has measured, such as one on a path, has no text.
+    """
     placed, gazes, turned = [], [], []
     for constraint in constraints:
         match constraint:
+            case Place(point=WorldPoint()):
+                placed.append(subject_text(constraint))
             case Place():
                 placed.append(constraint_text(constraint))
             case Look() | LookAt():

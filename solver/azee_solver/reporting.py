@@ -32,10 +32,10 @@ def report(
     body, limits = moment.body, moment.body.rig.coordinates
     q = np.clip(solution.q, limits.lower, limits.upper)
     undefined = frozenset().union(*(r.undefined for r in solution.results))
-    diagnosis = Diagnosis(body, moment.tasks, moment.footprints, q)
+    free = frozenset().union(*(group.free for group in solution.groups))
+    diagnosis = Diagnosis(body, moment.tasks, moment.footprints, q, free)
     constraints = tuple(_constraints(body, moment.tasks, q, diagnosis, undefined))
     q.setflags(write=False)
-    free = frozenset().union(*(group.free for group in solution.groups))
     explain_s = diagnosis.spent_s
     return SolveReport(
         q,
@@ -71,7 +71,9 @@ def _constraints(
         why = None
         if not met:
             explain = body.options.explain
-            why = diagnosis.reason(i, i in undefined) if explain else "not looked into"
+            why = "not looked into"
+            if explain:
+                why = diagnosis.reason(i, float(residual) / tolerance, i in undefined)
         yield ConstraintReport(task, float(residual), unit, tolerance, met, why)
 
 

@@ -125,13 +125,13 @@ def test_a_text_is_bound_to_a_body_when_asked(
     strict = ["check", "--quiet", "--strict-body", "--rig", "signer"]
     assert run([*strict, "touch.azee"]) == 1
     told = capsys.readouterr().err
-    assert "error[rig-lacks-site]: the rig `signer` has no site `CH`" in told
+    assert "error[rig-lacks-site]: the rig `signer` has no site `@CH`" in told
     assert "note: written at touch.azee:1:8" in told
     assert run([*strict, "-e", "key 1 (place @I_TIP(s) @CH)"]) == 1
     assert "error[rig-lacks-site]" in capsys.readouterr().err
     assert run(["check", "--rig", "signer", "touch.azee"]) == 0
     told = capsys.readouterr().err
-    lacking = "warning[rig-lacks-site]: the rig `signer` has no site `CH`"
+    lacking = "warning[rig-lacks-site]: the rig `signer` has no site `@CH`"
     assert f"{lacking}; 1 constraint with it left out" in told
 
 
@@ -146,3 +146,10 @@ def test_colours_only_where_somebody_looks(
     monkeypatch.setenv("NO_COLOR", "1")
     run(["check", "faulty.azee"])
     assert "\x1b[" not in capsys.readouterr().err
+
+
+def test_an_expression_is_warned_of_what_no_body_shows(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "-e", "key 1 (morph 'AU12 5)"]) == 0
+    told = capsys.readouterr().err
+    assert "warning[beyond-body]: no face shows `'AU12` with weight 5" in told
+    assert told.endswith("1 expression: 1 warning\n")

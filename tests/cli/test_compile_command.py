@@ -174,6 +174,18 @@ def test_a_miss_is_named_and_strict_makes_it_count(capsys: pytest.CaptureFixture
     assert run(["compile", "touch.azee", "--strict", "--quiet"]) == 0
 
 
+def test_what_is_too_fast_for_the_frames_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    circling = "key 1 (place @I_TIP(s) (moving (circle ^fwd .02 6) ^Mssp ^Mssp))"
+    assert run(["compile", "-e", circling, "--fps", "10"]) == 0
+    told = capsys.readouterr().err
+    assert "warning[beyond-frames]: no 10 frames a second can show 6 turns a second\n" in told
+    trilling = "key 1 (trill !palm(s) ^up 'freq 6)"
+    assert run(["compile", "-e", trilling, "--fps", "10", "--strict"]) == 3
+    told = capsys.readouterr().err
+    assert "no 10 frames a second can show 6 oscillations" in told
+    assert run(["compile", "-e", trilling, "--fps", "12", "--strict"]) == 0
+
+
 def test_a_fault_while_writing_leaves_no_file(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -210,7 +222,7 @@ def test_a_rig_that_lacks_a_name_signs_the_rest_or_is_refused() -> None:
     with pytest.raises(azee.AZeeError, match="rig-lacks-site") as caught:
         perform(score, replace(rig, sites=sites), strict_body=True)
     (diagnostic,) = caught.value.diagnostics
-    assert "`CH`" in diagnostic.message
+    assert "`@CH`" in diagnostic.message
     made = perform(score, replace(rig, sites=sites))
     (warning,) = made.left_out
     assert (warning.code, warning.severity.value) == ("rig-lacks-site", "warning")

@@ -15,7 +15,7 @@ from programs import Node
 from small_rig import SMALL, tumbling
 
 from azee.clip.clip import Clip
-from azee.export.formats import bvh
+from azee.export.formats import moving_body
 from azee.export.formats.bvh import write_bvh
 from azee.export.formats.moving_body import MovingBody
 
@@ -131,20 +131,10 @@ def test_uneven_times_are_refused_and_leave_no_file(clip: Clip, tmp_path: Path) 
     assert list(tmp_path.iterdir()) == []
 
 
-def test_frames_are_written_a_chunk_at_a_time(
-    clip: Clip, file: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    """The same bytes, angles going on from the last frame of the chunk before."""
-    for size in (1, 3, len(clip.times)):
-        monkeypatch.setattr(bvh, "CHUNK", size)
-        write_bvh(clip, SMALL, tmp_path / "chunks.bvh")
-        assert (tmp_path / "chunks.bvh").read_bytes() == file.read_bytes()
-
-
 def test_a_long_clip_needs_no_more_room_to_be_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(bvh, "CHUNK", 100)
+    monkeypatch.setattr(moving_body, "CHUNK", 100)
     peaks = []
     for frames in (200, 1600):
         q = np.resize(tumbling().coordinates, (frames, tumbling().coordinates.shape[1]))

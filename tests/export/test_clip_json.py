@@ -10,9 +10,11 @@ import jsonschema
 import numpy as np
 import pytest
 from formats import schema
-from small_rig import SMALL, tumbling
+from numpy.typing import NDArray
+from small_rig import SMALL, SmallRig, tumbling
 
 from azee.export.formats.clip_json import write_json
+from azee_rig.skeleton import Pose
 
 
 @pytest.fixture
@@ -73,3 +75,13 @@ def test_the_same_clip_gives_the_same_bytes(tmp_path: Path) -> None:
     for name in ("a.json", "b.json"):
         write_json(tumbling(), SMALL, tmp_path / name)
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
+
+
+def test_numbers_that_are_none_are_never_written(tmp_path: Path) -> None:
+    class Lost(SmallRig):
+        def joint_positions(self, pose: Pose) -> NDArray[np.float64]:
+            return np.full_like(super().joint_positions(pose), np.nan)
+
+    with pytest.raises(ValueError, match="JSON"):
+        write_json(tumbling(), Lost(), tmp_path / "lost.json")
+    assert list(tmp_path.iterdir()) == []

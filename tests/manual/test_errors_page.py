@@ -20,6 +20,7 @@ from azee.clip.archive import write_clip
 from azee.clip.clip import Clip
 from azee.compilation import lacks
 from azee.lang.program import load
+from azee.lang.unshowable import beyond_frames
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.render import render
 from azee_grammar.source import Source
@@ -65,12 +66,19 @@ def _beside_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def _reported(block: Block, request: pytest.FixtureRequest) -> tuple[Diagnostic, ...]:
-    """All that is wrong with an example; `body-without=NAME` has a body play it that lacks it."""
+    """All that is wrong with an example.
+
+    `body-without=NAME` has a body play it that lacks the name, `fps=N` a clip of so many frames.
+    """
     Path("example.azee").write_text(block.text, encoding="utf-8", newline="\n")
     program = load(Source("example.azee", block.text))
-    if (name := block.options.get("body-without")) is None:
+    name, fps = block.options.get("body-without"), block.options.get("fps")
+    if name is None and fps is None:
         return program.check()
     assert program.check() == ()
+    if fps is not None:
+        return tuple(beyond_frames(program.score(), float(fps)))
+    assert name is not None
     return lacks(program.score(), _without(name, request.getfixturevalue("signer")), strict=True)
 
 

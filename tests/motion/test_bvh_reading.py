@@ -297,7 +297,7 @@ def test_the_figure_of_the_thesis_is_read_as_it_is_printed() -> None:
         (
             ["9", "1 2 3", "", "4 5", "4 5 6", "7 8 9", "0 0 0"],
             [[9, 2, 3], [1, 2, 3], [4, 5, 3], [4, 5, 6], [7, 8, 9], [0, 0, 0]],
-            ["line 1: a frame has 1 of 3 values, as 1 further frames"],
+            ["line 2: a frame has 1 of 3 values, as 1 further frames"],
         ),
     ],
 )

@@ -182,7 +182,7 @@ def test_a_corrected_map_is_used_and_fingers_that_are_not_there_are_refused(
     assert run(["compile", str(text), "--rig", str(folder), *outputs]) == 0
     assert "warning[rig-lacks-site]" in capsys.readouterr().err
     report = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))
-    assert [(row["code"], row["message"].count("I_TIP_R")) for row in report["left_out"]] == [
+    assert [(row["code"], row["message"].count("`@I_TIP(s)`")) for row in report["left_out"]] == [
         ("rig-lacks-site", 1)
     ]
     assert [c["met"] for c in report["constraints"]] == [True]

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from stick_body import stick_body
 
-from azee_solver.nlopt_backend import minimise
+from azee_solver.nlopt_backend import Compiled, c_interface, minimise
 from azee_solver.starts import starts
 
 Array = NDArray[np.float64]
@@ -87,6 +87,50 @@ def test_an_interruption_ends_the_descent_whenever_it_comes(last: int) -> None:
 
     with pytest.raises(KeyboardInterrupt):
         run(interrupted, (0.9, -0.7))
+
+
+def compiled() -> Compiled:
+    """Code that is never called, laid out for NLopt."""
+    return Compiled(0, 0, LOWER, UPPER, np.empty(1 + len(LOWER)))
+
+
+def test_an_interruption_while_optimisers_are_destroyed_is_not_lost(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Python drops what is raised in a `__del__`; pytest reports it as a warning, an error here."""
+    library = c_interface()
+    assert library is not None
+    destroyed = []
+    destroy = library.nlopt_destroy
+
+    def interrupted(optimiser: int) -> None:
+        destroyed.append(optimiser)
+        destroy(optimiser)
+        raise KeyboardInterrupt
+
+    gone = compiled()
+    monkeypatch.setattr(library, "nlopt_destroy", interrupted)
+    del gone
+    with pytest.raises(KeyboardInterrupt):
+        compiled()
+    assert len(destroyed) == 1
+
+
+def test_optimisers_of_what_is_gone_are_destroyed_each_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    library = c_interface()
+    assert library is not None
+    compiled()
+    compiled()  # by then those of earlier tests are destroyed
+    destroyed: list[int] = []
+    monkeypatch.setattr(library, "nlopt_destroy", destroyed.append)
+    kept = compiled()
+    for _ in range(5):
+        compiled()
+    assert len(destroyed) == 5
+    assert len(set(destroyed)) == 5
+    assert not set(destroyed) & set(kept._optimisers.values())
 
 
 def test_the_best_point_survives_an_objective_that_gets_worse() -> None:

@@ -215,27 +215,29 @@ def test_morphs_in_force_together_add() -> None:
 
 
 @pytest.mark.parametrize(
-    ("constraint", "code", "name"),
+    ("constraint", "code", "name", "text"),
     [
-        (Place(Site("NOSE"), FreePoint(0, 0, 0), origin=HERE), "rig-lacks-site", "NOSE"),
-        (Look(Dir(Bone("tail", S)), origin=HERE), "rig-lacks-bone", "tail_R"),
-        (Morph("grin", None, 1.0, origin=HERE), "rig-lacks-morph", "grin"),
+        (Place(Site("NOSE"), FreePoint(0, 0, 0), origin=HERE), "rig-lacks-site", "NOSE", "@NOSE"),
+        (Look(Dir(Bone("tail", S)), origin=HERE), "rig-lacks-bone", "tail_R", "!tail(s)"),
+        (Morph("grin", None, 1.0, origin=HERE), "rig-lacks-morph", "grin", "'grin"),
+        (Morph("purr", S, 1.0, origin=HERE), "rig-lacks-morph", "purr_R", "'purr s"),
         (
             Orient(BoneAxis.DIR, Bone("palm", S), Relation.ALONG, Dir(Bone("wing")), origin=HERE),
             "rig-lacks-bone",
             "wing",
+            "!wing",
         ),
     ],
 )
 def test_what_the_rig_lacks_is_said_with_its_origin(
-    constraint: Constraint, code: str, name: str
+    constraint: Constraint, code: str, name: str, text: str
 ) -> None:
     with pytest.raises(BindingError) as caught:
         RIGHT.residual(constraint, ZERO_FRAMES, ZERO)
     assert (caught.value.code, caught.value.name, caught.value.origin) == (code, name, HERE)
     with pytest.raises(BindingError) as checked:
         RIGHT.binding.check(constraint)
-    assert checked.value.origin == HERE
+    assert (checked.value.text, checked.value.origin) == (text, HERE)
 
 
 @pytest.mark.parametrize(

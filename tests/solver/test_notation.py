@@ -88,3 +88,7 @@ def test_a_problem_is_named_by_its_placement_then_by_what_it_turns() -> None:
     ]
     name = "place @I_TIP(s) @CH, orient 'dir !palm(s), orient 'nrm !palm(s)"
     assert problem_text(asked) == name
+
+
+def test_a_problem_at_a_measured_point_is_named_without_its_coordinates() -> None:
+    assert problem_text([c.Place(TIP, g.WorldPoint(0.1, 1.2, 0.3))]) == "place @I_TIP(s)"

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from azee.clip.clip import Clip
 from azee.export.files import replace_file
 from azee.export.formats.euler import EulerZXY
-from azee.export.formats.moving_body import MovingBody
+from azee.export.formats.moving_body import MovingBody, postures
 from azee_rig.skeleton import Skeleton
 
 CENTIMETRES = 100.0
@@ -35,8 +35,6 @@ About the ratio of distal to middle phalanges.
 """
 ONE_FRAME_S = 1 / 30
 """Frame time of a still."""
-CHUNK = 1024
-"""Frames that are posed and written together, so that a long clip needs no more room."""
 
 
 def write_bvh(clip: Clip, rig: MovingBody, path: str | Path) -> None:
@@ -66,8 +64,7 @@ def write_bvh(clip: Clip, rig: MovingBody, path: str | Path) -> None:
 def _rows(clip: Clip, rig: MovingBody, order: Sequence[int]) -> Iterator[str]:
     """Yield a line for each frame, a chunk of frames at a time."""
     before: NDArray[np.float64] | None = None
-    for start in range(0, len(clip.times), CHUNK):
-        pose = rig.pose(clip.coordinates[start : start + CHUNK])
+    for _, pose in postures(clip, rig):
         euler = EulerZXY.from_quaternions(pose.rotations[:, order], before).angles
         before = euler[-1]
         root = rig.skeleton.offsets[0] + np.broadcast_to(pose.root_translation, (len(euler), 3))

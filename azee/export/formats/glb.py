@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from azee.clip.clip import Clip
 from azee.export.files import replace_file
 from azee.export.formats.gltf.animation import add_animation
 from azee.export.formats.gltf.document import Document
 from azee.export.formats.gltf.mesh import add_mesh
 from azee.export.formats.gltf.skin import add_joints, add_skin
-from azee.export.formats.moving_body import MovingBody
+from azee.export.formats.moving_body import MovingBody, postures
+from azee_rig.skeleton import Pose
 
 
 def write_glb(clip: Clip, rig: MovingBody, path: str | Path) -> None:
@@ -30,7 +33,7 @@ def write_glb(clip: Clip, rig: MovingBody, path: str | Path) -> None:
     add_animation(
         document,
         clip,
-        rig.pose(clip.coordinates),
+        _pose(clip, rig),
         nodes,
         rig.skeleton.offsets[0],
         body,
@@ -40,4 +43,14 @@ def write_glb(clip: Clip, rig: MovingBody, path: str | Path) -> None:
     roots = [node for node, parent in zip(nodes, parents, strict=True) if parent < 0]
     scene = document.add("scenes", name=rig.name, nodes=[*roots, body])
     with replace_file(path) as file:
-        file.write(document.to_glb(scene=scene))
+        file.writelines(document.glb_parts(scene=scene))
+
+
+def _pose(clip: Clip, rig: MovingBody) -> Pose:
+    """Return all postures of a clip, (T, J)."""
+    count, joints = len(clip.times), len(rig.skeleton.names)
+    whole = Pose(np.empty((count, 3)), np.empty((count, joints, 4)))
+    for frames, pose in postures(clip, rig):
+        whole.root_translation[frames] = pose.root_translation
+        whole.rotations[frames] = pose.rotations
+    return whole

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from enum import IntEnum
 from typing import Any
 
@@ -140,7 +140,11 @@ class Document:
         )
 
     def to_glb(self, **properties: Any) -> bytes:
-        """Return the file: header, JSON chunk, binary chunk. `properties` join the top level."""
+        """Return the file. `properties` join the top level."""
+        return b"".join(self.glb_parts(**properties))
+
+    def glb_parts(self, **properties: Any) -> Iterator[bytes | bytearray]:
+        """Yield the file in parts: header, JSON chunk, binary chunk, which is the buffer itself."""
         top: Mapping[str, Any] = {
             "asset": self.asset,
             **properties,
@@ -149,9 +153,9 @@ class Document:
         }
         text = json.dumps(top, separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode()
         text += b" " * (-len(text) % 4)
-        chunks = _chunk(b"JSON", text) + _chunk(b"BIN\0", bytes(self.buffer))
-        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
-
-
-def _chunk(kind: bytes, data: bytes) -> bytes:
-    return struct.pack("<I4s", len(data), kind) + data
+        chunks = ((b"JSON", text), (b"BIN\0", self.buffer))
+        size = sum(8 + len(data) for _, data in chunks)
+        yield struct.pack("<4sII", b"glTF", 2, 12 + size)
+        for kind, data in chunks:
+            yield struct.pack("<I4s", len(data), kind)
+            yield data

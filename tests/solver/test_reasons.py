@@ -1,0 +1,85 @@
+"""The reason that is told is the true cause: what accounts for most of the miss."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from azee_rig.rig import Rig
+from azee_solver.constraint import BoneAxis, Constraint, Look, Orient, Place, Relation, Rotate
+from azee_solver.geometry import Bone, FreePoint, Side, Site, Vec
+from azee_solver.solve import solve
+from azee_solver.task import Task
+
+HEAD, NECK = Bone("head"), Bone("neck")
+LEFT, UP, FORWARD = Vec(1.0, 0.0, 0.0), Vec(0.0, 1.0, 0.0), Vec(0.0, 0.0, 1.0)
+FAR_LEFT, RIGHT_FORWARD = Vec(1.0, 0.0, 0.2), Vec(-1.0, 0.0, 1.0)
+
+
+def along(axis: BoneAxis, bone: Bone, vector: Vec) -> Orient:
+    return Orient(axis, bone, Relation.ALONG, vector)
+
+
+def turn(bone: Bone, axis: Vec, degrees: float) -> Rotate:
+    return Rotate(bone, axis, math.radians(degrees))
+
+
+def reasons(rig: Rig, *constraints: Constraint) -> dict[int, str]:
+    """Why constraints are not met, by their number."""
+    tasks = [Task(c, ("A",), 0.0, i) for i, c in enumerate(constraints)]
+    idle = rig.coordinates.idle
+    report = solve(rig, tasks, dominant=Side.RIGHT, start=idle, reference=idle)
+    return {i: c.reason for i, c in enumerate(report.constraints) if c.reason is not None}
+
+
+@pytest.mark.parametrize(
+    "constraints",
+    [
+        (Look(FAR_LEFT), along(BoneAxis.NRM, HEAD, RIGHT_FORWARD)),
+        (Look(FAR_LEFT), turn(HEAD, LEFT, -20), along(BoneAxis.NRM, HEAD, RIGHT_FORWARD)),
+        # Alone, the body would stop the neck from the last degree of forty-five:
+        (turn(HEAD, UP, 35), along(BoneAxis.NRM, HEAD, Vec(0.0, -1.0, 1.0)),
+         along(BoneAxis.DIR, NECK, FORWARD)),
+        (along(BoneAxis.NRM, HEAD, UP), along(BoneAxis.DIR, NECK, FORWARD),
+         Look(Vec(-1.0, 1.0, 1.0))),
+    ],
+)  # fmt: skip
+def test_head_constraints_that_exclude_each_other_are_a_conflict(
+    signer: Rig, constraints: tuple[Constraint, ...]
+) -> None:
+    found = reasons(signer, *constraints)
+    assert found
+    assert not [reason for reason in found.values() if "body" in reason]
+    assert all(reason.startswith("conflicts with `") for reason in found.values())
+
+
+def test_a_limit_that_stops_a_constraint_less_than_another_is_told_after_it(signer: Rig) -> None:
+    alone = reasons(signer, turn(NECK, FORWARD, -35))
+    limit = "the neck cannot bend further: it is at 25° to the left and needs 10.0° more"
+    assert alone == {0: limit}
+    found = reasons(signer, turn(NECK, UP, 20), turn(NECK, FORWARD, -35))
+    assert found == {1: f"conflicts with `rotate !neck ^up 20`; besides, {limit}"}
+
+
+def test_a_constraint_that_nothing_meets_does_not_exclude_others(signer: Rig) -> None:
+    """The head cannot turn so far, whatever the hand, which is too far away, does."""
+    found = reasons(
+        signer, turn(HEAD, UP, 50), Place(Site("I_TIP", Side.RIGHT), FreePoint(-0.3, 0.1, 3.0))
+    )
+    assert found[0] == "the head cannot turn further: it is at 40° to the left and needs 10.0° more"
+    assert found[1].startswith("out of reach by ")
+
+
+def test_a_part_that_was_left_still_is_named(signer: Rig) -> None:
+    """Looking up takes the head back; leaning back, the signer could turn it besides."""
+    found = reasons(signer, Look(UP), turn(HEAD, UP, 20))
+    assert found == {1: "could be met if the lower back and the upper back moved too"}
+
+
+def test_the_body_is_named_where_it_stops_a_constraint(signer: Rig) -> None:
+    fixed = (along(BoneAxis.DIR, Bone("back_2"), UP), along(BoneAxis.NRM, Bone("back_2"), FORWARD))
+    inside = Place(Site("PA", Side.RIGHT), FreePoint(0.0, -0.15, 0.0))
+    found = reasons(signer, inside, *fixed)
+    assert found[0].startswith("the body is in the way")
+    assert "the trunk" in found[0]

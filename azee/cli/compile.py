@@ -173,4 +173,4 @@ def compile_(
         news(outcome_lines(made, files), quiet=quiet)
         if profile:
             watch.show()
-    return MISSED if strict and not made.report.met else DONE
+    return MISSED if strict and made.report.missed else DONE

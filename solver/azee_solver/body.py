@@ -47,6 +47,7 @@ class Body:
     options: SolveOptions
     constraints: Sequence[Constraint]
     evaluations: int = 0
+    limits: tuple[Array, Array] | None = None
     anatomy: Anatomy = field(init=False)
     obstacles: Obstacles = field(init=False)
     _weights: dict[bool, tuple[Array, Array, float, Mapping[int, int]]] = field(

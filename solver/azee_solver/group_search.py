@@ -129,7 +129,9 @@ class GroupSearch:
         )
         gazes = any(isinstance(task.constraint, Look | LookAt) for task in tasks.values())
         cost = body.cost(gazes=gazes)
-        self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, cost)
+        self.program = Program(
+            body.rig, q, sorted(free), tape, rows, self.collisions, cost, limits=body.limits
+        )
 
     def search(self, candidates: Iterable[Array], further: bool) -> Result:
         """Return the best end of descents: the first that meets all, or when no more is gained.

@@ -84,12 +84,14 @@ class Program:
         collisions: Collisions,
         cost: Cost,
         *,
+        limits: tuple[Array, Array] | None = None,
         all_frames: bool = False,
     ) -> None:
         """Lay the problem out.
 
-        Args: q: (V,) posture of all that stays. tape: made for that posture. all_frames: work out
-            the frames of all moving nodes, not only of those that the objective reads.
+        Args: q: (V,) posture of all that stays. tape: made for that posture. limits: (V,) each,
+            narrower than the body's. all_frames: work out the frames of all moving nodes, not only
+            of those that the objective reads.
         """
         self.rows, codes, numbers = _used(tape, rows)
         self.layout = layout(
@@ -112,6 +114,9 @@ class Program:
         posture[self.layout.followed, 0] = k.FOLLOWING * q[self.layout.leaders]
         posture[:, 1] = cost.keep[self.free]
         posture[:, 4] = cost.comfort[self.free]
+        if limits is not None:
+            self.lower, self.upper = (limit[self.free] for limit in limits)
+            self.section(k.BOUNDS)[:] = np.concatenate([self.lower, self.upper])
         self.section(k.Q)[:] = q
         self.section(k.NUMBERS)[:] = numbers
         self.section(k.ROW_NUMBERS)[:] = [x for r in self.rows for x in (r.weight, r.distance_m)]

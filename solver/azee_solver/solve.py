@@ -53,4 +53,6 @@ def solve(
         solution = groups.solve(reach, solution)  # 4, 5
     if solution.missed():
         solution = groups.solve(solution.reach, solution, give_up=True)  # 8
-    return report(moment, solution, groups.spent_s, began)  # 9
+    if not moment.options.precise:
+        solution = groups.solve(solution.reach, solution, ease=True)  # 9
+    return report(moment, solution, groups.spent_s, began)  # 10

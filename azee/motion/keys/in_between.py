@@ -97,14 +97,14 @@ class InBetweenSolver:
             fixed = self._all_but(free)
             report = self.solver(ik_tasks, start=q, reference=q, search=Search.LOCAL, fixed=fixed)
             undisturbed = _undisturbed(tasks, off, free)
-            if all(c.met or c.task.rank in undisturbed for c in report.constraints):
+            if all(not c.missed or c.task.rank in undisturbed for c in report.constraints):
                 return report
         assert report is not None
         unmet = {c.task.constraint for c in report.constraints if not c.met}
         if unmet <= self.infeasible:
             return report
         searched = self.solver(ik_tasks, start=q, reference=q, fixed=fixed)
-        left, fewer = (sum(not c.met for c in r.constraints) for r in (report, searched))
+        left, fewer = (sum(c.missed for c in r.constraints) for r in (report, searched))
         return searched if fewer < left else report
 
     def _widening(

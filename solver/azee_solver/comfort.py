@@ -1,0 +1,218 @@
+"""Comfort is a price: what the last millimetres and degrees may cost the rest of the body.
+
+The exact answer of a group may throw the trunk to its limits for two millimetres. Where it moves
+the trunk by more than 5°, or drives a coordinate of trunk, head or arms to its limit, `eased` solves
+the group again inside narrower limits: the trunk near the reference, all else short of its limits.
+What comes of that is taken if every constraint stays inside the tolerance of Nunnari, Filhol and
+Heloir 2018 (1 cm, 5°), with as little lean of the trunk as that takes. An orientation alone may not
+lean the trunk: it is given up, unless the hand would point elsewhere altogether.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee_solver.anatomy import Part
+from azee_solver.constraint import Orient, Place
+from azee_solver.footprint import part_constrained
+from azee_solver.geometry import SitePoint
+from azee_solver.group_search import solve_group
+from azee_solver.groups import Group
+from azee_solver.moment import Moment
+from azee_solver.outcome import Price
+from azee_solver.priorities import GIVEN_UP_PULL
+from azee_solver.result import Result
+from azee_solver.tolerance import PAPER
+
+Array = NDArray[np.float64]
+Limits = tuple[Array, Array]
+
+STILL_RAD = math.radians(5.0)
+"""How far the trunk may turn without a price."""
+NEAR_LIMIT_RAD = math.radians(1.0)
+"""A coordinate nearer to its limit than this is at it."""
+MARGIN_RAD = math.radians(1.5)
+"""How far short of their limits coordinates stay where that will do."""
+MOST_GIVEN_UP_RAD = math.radians(20.0)
+"""An orientation farther off would be another one: rather than that, the trunk leans."""
+HALVINGS = 4
+"""Of the range between a trunk that is still and the exact answer's: the lean is the least to
+within a sixteenth."""
+STIFF_OVERLAP = 16.0
+"""Factor of the overlap's weight: a constraint is eased rather than a hand pressed into the body."""
+
+_STILL_EACH_RAD = STILL_RAD / (2.0 * math.sqrt(3.0))
+"""Of each of the six coordinates of two joints: together these turn the trunk by at most 5°."""
+
+
+def eased(
+    moment: Moment, group: Group, q: Array, unsettled: frozenset[int], exact: Result
+) -> Result:
+    """Return the most comfortable result of a group in which each constraint is met or eased.
+
+    Args: q: (V,) the posture so far. unsettled: see `solve_group`. exact: the group's result
+        without regard to comfort, which is returned where nothing better is found.
+    """
+    if not exact.ratios:
+        return exact
+    search = _ComfortSearch(moment, group, q, unsettled, exact)
+    return search.result()
+
+
+class _ComfortSearch:
+    """Attempts on one group: narrower limits, and what may be given up."""
+
+    def __init__(
+        self, moment: Moment, group: Group, q: Array, unsettled: frozenset[int], exact: Result
+    ) -> None:
+        body, anatomy = moment.body, moment.body.anatomy
+        self.moment, self.group, self.q = moment, group, q
+        self.unsettled, self.exact = unsettled, exact
+        self.tasks = moment.tasks_of(group)
+        self.limits: Limits = body.rig.coordinates.lower, body.rig.coordinates.upper
+        bodily = anatomy.of(Part.TRUNK, Part.HEAD, Part.ARM)
+        self.bodily = sorted(bodily & group.free)
+        self.trunk = sorted(anatomy.of(Part.TRUNK) & group.free)
+        binding = body.evaluator.binding
+        if any(part_constrained(t.constraint, binding) is Part.TRUNK for t in self.tasks.values()):
+            self.trunk = []
+        options = moment.options
+        self.body = replace(
+            body,
+            options=replace(options, far=False, overlap=STIFF_OVERLAP * options.overlap),
+            evaluations=0,
+        )
+        self.price = self._price(exact.q)
+
+    def result(self) -> Result:
+        """Return what `eased` returns."""
+        if not self.price:
+            return self.exact
+        found, hard = None, frozenset[int]()
+        if self.price.trunk_rad > STILL_RAD:
+            found, hard = self._with_trunk()
+        if found is None:
+            found, more = self._attempt(self._inside())
+            hard |= more
+        self.moment.body.evaluations += self.body.evaluations
+        if found is None:
+            return replace(self.exact, strain=self.price, strained_for=hard)
+        strain = self._price(found.q)
+        return replace(
+            found,
+            eased={i: self.price for i in found.missed() - self.exact.missed()},
+            strain=strain,
+            strained_for=hard if strain else frozenset(),
+        )
+
+    def _with_trunk(self) -> tuple[Result | None, frozenset[int]]:
+        """Keep the trunk still; else give orientations up; else lean it as little as will do.
+
+        Returns: also the tasks that are not even eased while the trunk is still.
+        """
+        still = self._inside(0.0)
+        found, hard = self._attempt(still)
+        if found is not None:
+            return found, hard
+        orientations = frozenset(
+            i for i, t in self.tasks.items() if isinstance(t.constraint, Orient)
+        )
+        if orientations:
+            found, _ = self._attempt(still, given_up=orientations)
+            if found is not None:
+                return found, hard
+        least, most = 0.0, 1.0
+        for _ in range(HALVINGS):
+            middle = 0.5 * (least + most)
+            other, _ = self._attempt(self._inside(middle))
+            if other is None:
+                least = middle
+            else:
+                most, found = middle, other
+        return found, hard
+
+    def _attempt(
+        self, limits: Limits, given_up: frozenset[int] = frozenset()
+    ) -> tuple[Result | None, frozenset[int]]:
+        """Solve the group inside limits; none if that costs too much. Also the tasks that it costs.
+
+        Args: given_up: tasks that may be missed.
+        """
+        exact, options = self.exact, self.moment.options
+        factors = {i: GIVEN_UP_PULL / exact.ratios[i] for i in exact.missed() - exact.undefined}
+        factors |= {i: GIVEN_UP_PULL / self._slack(i) for i in given_up}
+        self.body.limits = limits
+        found = solve_group(
+            self.body,
+            self.tasks,
+            self.q,
+            self.group.free,
+            unsettled=self.unsettled,
+            factors=factors,
+            first=[exact.q],
+            only_first=not options.far,
+            further=False,
+        )
+        allowed_m = max(exact.overlap_m, options.overlap_m) + options.tolerance.length_m
+        costs = frozenset(i for i in found.ratios if not found.ratios[i] <= self._allowed(i, given_up))
+        return None if costs or found.overlap_m > allowed_m else found, costs
+
+    def _allowed(self, i: int, given_up: frozenset[int]) -> float:
+        """How far off a task may be, in tolerances."""
+        exact, constraint = self.exact.ratios[i], self.tasks[i].constraint
+        if i in given_up:
+            return max(exact, MOST_GIVEN_UP_RAD / self.moment.options.tolerance.of(constraint))
+        if not exact <= 1.0:
+            return exact + self._slack(i)
+        touches = isinstance(constraint, Place) and isinstance(constraint.point, SitePoint)
+        if touches and not constraint.distance_m and self.price.trunk_rad <= STILL_RAD:
+            return 1.0
+        return self._slack(i)
+
+    def _slack(self, i: int) -> float:
+        """Tolerance of the source paper, in ours."""
+        constraint = self.tasks[i].constraint
+        return PAPER.of(constraint) / self.moment.options.tolerance.of(constraint)
+
+    def _inside(self, lean: float = 1.0) -> Limits:
+        """Limits of the body, short of what joints can do.
+
+        Args: lean: how much of the exact answer's lean the trunk may have beyond 5°, from 0 to 1.
+        """
+        lower, upper = (np.array(limit) for limit in self.limits)
+        lower[self.bodily] += MARGIN_RAD
+        upper[self.bodily] -= MARGIN_RAD
+        if lean < 1.0 and self.trunk:
+            ends = self._neutral()[:, self.trunk]
+            low, high = ends.min(axis=0) - _STILL_EACH_RAD, ends.max(axis=0) + _STILL_EACH_RAD
+            there = self.exact.q[self.trunk]
+            lower[self.trunk] = np.maximum(
+                lower[self.trunk], low + lean * np.minimum(there - low, 0.0)
+            )
+            upper[self.trunk] = np.minimum(
+                upper[self.trunk], high + lean * np.maximum(there - high, 0.0)
+            )
+        return lower, upper
+
+    def _neutral(self) -> Array:
+        """Postures in which the trunk leans for free, (2, V): idle, and the reference."""
+        return np.stack([self.body.rig.coordinates.idle, self.moment.reference])
+
+    def _price(self, q: Array) -> Price:
+        """Return what a posture costs."""
+        names, (lower, upper) = self.body.rig.coordinates.names, self.limits
+        stops = np.minimum(q - lower, upper - q)[self.bodily] < NEAR_LIMIT_RAD
+        stopped = tuple(names[v] for v, s in zip(self.bodily, stops.tolist(), strict=True) if s)
+        lean = min(self._lean(q, to) for to in self._neutral()) if self.trunk else 0.0
+        return Price(lean if lean > STILL_RAD else 0.0, stopped)
+
+    def _lean(self, q: Array, to: Array) -> float:
+        """Angle by which the upper trunk is turned from where another posture has it, radians."""
+        node = self.body.rig.bones["back_2"].node
+        a, b = (self.body.frames(p).rotations[node] for p in (q, to))
+        return 2.0 * math.asin(min(float(np.linalg.norm(a - b)) / math.sqrt(8.0), 1.0))

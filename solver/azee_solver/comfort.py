@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 from azee_solver.anatomy import Part
 from azee_solver.constraint import Orient, Place
 from azee_solver.footprint import part_constrained
-from azee_solver.geometry import SitePoint
+from azee_solver.geometry import Bone, SitePoint
 from azee_solver.group_search import solve_group
 from azee_solver.groups import Group
 from azee_solver.moment import Moment
 from azee_solver.outcome import Price
 from azee_solver.priorities import GIVEN_UP_PULL
-from azee_solver.result import Result
+from azee_solver.result import Result, excess
 from azee_solver.tolerance import PAPER
 
 Array = NDArray[np.float64]
@@ -38,16 +38,19 @@ NEAR_LIMIT_RAD = math.radians(1.0)
 """A coordinate nearer to its limit than this is at it."""
 MARGIN_RAD = math.radians(1.5)
 """How far short of their limits coordinates stay where that will do."""
-MOST_GIVEN_UP_RAD = math.radians(20.0)
-"""An orientation farther off would be another one: rather than that, the trunk leans."""
+MOST_GIVEN_UP_RAD = math.radians(30.0)
+"""An orientation farther off would be another one: rather than that, the trunk leans. But for a
+bone that cannot be turned as is asked anyway, the trunk does not lean."""
 HALVINGS = 4
 """Of the range between a trunk that is still and the exact answer's: the lean is the least to
 within a sixteenth."""
 STIFF_OVERLAP = 16.0
 """Factor of the overlap's weight: a constraint is eased rather than a hand pressed into the body."""
 
-_STILL_EACH_RAD = STILL_RAD / (2.0 * math.sqrt(3.0))
+_STILL_EACH_RAD = 0.98 * STILL_RAD / (2.0 * math.sqrt(3.0))
 """Of each of the six coordinates of two joints: together these turn the trunk by at most 5°."""
+
+_ROUNDING = 1e-9
 
 
 def eased(
@@ -74,20 +77,32 @@ class _ComfortSearch:
         self.moment, self.group, self.q = moment, group, q
         self.unsettled, self.exact = unsettled, exact
         self.tasks = moment.tasks_of(group)
+        self.free = group.free - self._shaped()
+        self.idle = np.array(body.rig.coordinates.idle)
         self.limits: Limits = body.rig.coordinates.lower, body.rig.coordinates.upper
         bodily = anatomy.of(Part.TRUNK, Part.HEAD, Part.ARM)
-        self.bodily = sorted(bodily & group.free)
-        self.trunk = sorted(anatomy.of(Part.TRUNK) & group.free)
+        self.bodily = sorted(bodily & self.free)
+        self.trunk = sorted(anatomy.of(Part.TRUNK) & self.free)
         binding = body.evaluator.binding
         if any(part_constrained(t.constraint, binding) is Part.TRUNK for t in self.tasks.values()):
             self.trunk = []
         options = moment.options
         self.body = replace(
             body,
-            options=replace(options, far=False, overlap=STIFF_OVERLAP * options.overlap),
+            options=replace(
+                options,
+                far=False,
+                overlap=STIFF_OVERLAP * options.overlap,
+                patience=max(options.patience, 1),
+            ),
             evaluations=0,
         )
         self.price = self._price(exact.q)
+
+    def _shaped(self) -> frozenset[int]:
+        """Coordinates of handshapes that the exact answer keeps: comfort is not theirs to give."""
+        tolerance, presets = self.moment.options.tolerance.angle_rad, self.moment.body.presets
+        return frozenset(v for v, a in presets.items() if abs(self.exact.q[v] - a) <= tolerance)
 
     def result(self) -> Result:
         """Return what `eased` returns."""
@@ -151,28 +166,37 @@ class _ComfortSearch:
             self.body,
             self.tasks,
             self.q,
-            self.group.free,
+            self.free,
             unsettled=self.unsettled,
             factors=factors,
-            first=[exact.q],
+            first=[self.moment.start, exact.q],
             only_first=not options.far,
             further=False,
         )
         allowed_m = max(exact.overlap_m, options.overlap_m) + options.tolerance.length_m
-        costs = frozenset(i for i in found.ratios if not found.ratios[i] <= self._allowed(i, given_up))
+        costs = frozenset(
+            i for i in found.ratios if not found.ratios[i] <= self._allowed(i, given_up)
+        )
         return None if costs or found.overlap_m > allowed_m else found, costs
 
     def _allowed(self, i: int, given_up: frozenset[int]) -> float:
         """How far off a task may be, in tolerances."""
         exact, constraint = self.exact.ratios[i], self.tasks[i].constraint
         if i in given_up:
-            return max(exact, MOST_GIVEN_UP_RAD / self.moment.options.tolerance.of(constraint))
+            if self._bone(i) in map(self._bone, self.exact.missed()):
+                return math.inf
+            return MOST_GIVEN_UP_RAD / self.moment.options.tolerance.of(constraint)
         if not exact <= 1.0:
-            return exact + self._slack(i)
+            return exact + excess(self.exact, self.moment.options) + self._slack(i)
         touches = isinstance(constraint, Place) and isinstance(constraint.point, SitePoint)
         if touches and not constraint.distance_m and self.price.trunk_rad <= STILL_RAD:
             return 1.0
         return self._slack(i)
+
+    def _bone(self, i: int) -> Bone | None:
+        """Return the bone that an orientation is of."""
+        constraint = self.tasks[i].constraint
+        return constraint.bone if isinstance(constraint, Orient) else None
 
     def _slack(self, i: int) -> float:
         """Tolerance of the source paper, in ours."""
@@ -188,31 +212,35 @@ class _ComfortSearch:
         lower[self.bodily] += MARGIN_RAD
         upper[self.bodily] -= MARGIN_RAD
         if lean < 1.0 and self.trunk:
-            ends = self._neutral()[:, self.trunk]
-            low, high = ends.min(axis=0) - _STILL_EACH_RAD, ends.max(axis=0) + _STILL_EACH_RAD
+            low, high = self._free_lean()
             there = self.exact.q[self.trunk]
-            lower[self.trunk] = np.maximum(
-                lower[self.trunk], low + lean * np.minimum(there - low, 0.0)
-            )
-            upper[self.trunk] = np.minimum(
-                upper[self.trunk], high + lean * np.maximum(there - high, 0.0)
-            )
+            low += lean * np.minimum(there - low, 0.0)
+            high += lean * np.maximum(there - high, 0.0)
+            lower[self.trunk] = np.maximum(lower[self.trunk], low)
+            upper[self.trunk] = np.minimum(upper[self.trunk], high)
         return lower, upper
 
-    def _neutral(self) -> Array:
-        """Postures in which the trunk leans for free, (2, V): idle, and the reference."""
-        return np.stack([self.body.rig.coordinates.idle, self.moment.reference])
+    def _free_lean(self) -> tuple[Array, Array]:
+        """Return between which limits the trunk leans for free: to the reference, or by 5°."""
+        idle, there = (p[self.trunk] for p in (self.idle, self.moment.reference))
+        return np.minimum(idle - _STILL_EACH_RAD, there), np.maximum(idle + _STILL_EACH_RAD, there)
 
     def _price(self, q: Array) -> Price:
         """Return what a posture costs."""
         names, (lower, upper) = self.body.rig.coordinates.names, self.limits
         stops = np.minimum(q - lower, upper - q)[self.bodily] < NEAR_LIMIT_RAD
         stopped = tuple(names[v] for v, s in zip(self.bodily, stops.tolist(), strict=True) if s)
-        lean = min(self._lean(q, to) for to in self._neutral()) if self.trunk else 0.0
+        lean = self._lean(q)
         return Price(lean if lean > STILL_RAD else 0.0, stopped)
 
-    def _lean(self, q: Array, to: Array) -> float:
-        """Angle by which the upper trunk is turned from where another posture has it, radians."""
+    def _lean(self, q: Array) -> float:
+        """Angle between the upper trunk and its neutral orientation, radians, where it is a price."""
+        if not self.trunk:
+            return 0.0
+        low, high = self._free_lean()
+        there = q[self.trunk]
+        if np.all(there >= low - _ROUNDING) and np.all(there <= high + _ROUNDING):
+            return 0.0
         node = self.body.rig.bones["back_2"].node
-        a, b = (self.body.frames(p).rotations[node] for p in (q, to))
+        a, b = (self.body.frames(p).rotations[node] for p in (q, self.idle))
         return 2.0 * math.asin(min(float(np.linalg.norm(a - b)) / math.sqrt(8.0), 1.0))

@@ -115,9 +115,7 @@ class GroupSequence:
             )
 
         given_up = self._given_up(group)
-        factors, found = give_up_later_tasks(
-            result, given_up, again, lambda i: self.moment.tasks[i].order
-        )
+        factors, found = give_up_later_tasks(result, given_up, again, self.moment.precedence)
         if found.unmet() or factors != given_up:
             found = again(factors, found.q, finish=True)
         return found

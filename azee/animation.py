@@ -69,13 +69,15 @@ def animate(
     mode: Mode = "tracks",
     seed: int = 0,
     life: bool = True,
+    precise: bool = False,
     solver: PostureSolver | None = None,
 ) -> Animation:
     """Make a body play a score.
 
     Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
-        blinks, breaths and sway. life: whether to add these. solver: what solves key
-        postures; `azee_solver.solve` if none is given.
+        blinks, breaths and sway. life: whether to add these. precise: whether to meet
+        constraints at any price of comfort. solver: what solves key postures; `azee_solver.solve`
+        if none is given.
     What names a bone, site or morph that the rig lacks is left out.
 
     Raises: ValueError: an unknown mode or a frame rate that is none.
@@ -97,7 +99,7 @@ def animate(
     # 3 to 10. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
     planned = plan(
-        schedule, evaluator, selection, solver or _default_solver(rig, dominant), frames_inside
+        schedule, evaluator, selection, solver or _default_solver(rig, dominant, precise), frames_inside
     )
 
     # 11. Sample the movement at the clip's frames, and add trills, face, idle motion and lids.
@@ -143,7 +145,7 @@ def animate(
     return Animation(clip, report, key_times, lead_s, by_block)
 
 
-def _default_solver(rig: Rig, dominant: Side) -> PostureSolver:
+def _default_solver(rig: Rig, dominant: Side, precise: bool) -> PostureSolver:
     def answer(
         ik_tasks: Sequence[Task],
         *,
@@ -152,7 +154,7 @@ def _default_solver(rig: Rig, dominant: Side) -> PostureSolver:
         search: Search = Search.GLOBAL,
         fixed: frozenset[int] = frozenset(),
     ) -> SolveReport:
-        options = SolveOptions(fixed=fixed)
+        options = SolveOptions(precise=precise, fixed=fixed)
         if search is Search.LOCAL:
             options = replace(options, far=False, patience=0)
         return solve(

@@ -66,8 +66,8 @@ class Compilation:
     def report(self) -> MotionReport:
         """Every constraint with its residual, metres or radians; limits and penetration.
 
-        `report.met` says whether all constraints are within tolerance; `report.as_json()` is what
-        `save_report` writes. Penetration in the clip is measured when it is first read.
+        `report.met` says whether all constraints are within tolerance, `report.missed` whether one
+        is neither that nor eased for comfort; `report.as_json()` is what `save_report` writes. Penetration in the clip is measured when it is first read.
         """
         return self.animation.report
 
@@ -118,6 +118,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     seed: int = 0,
     life: bool = True,
     solver: Method = "grouped",
+    precise: bool = False,
     strict_body: bool = False,
 ) -> Compilation:
     """Compile AZee to a signing body.
@@ -141,6 +142,9 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         life: whether the signer breathes, blinks and sways.
         solver: how postures are found. grouped: problems that share coordinates are solved
             together. two-level: the iteration of Nunnari et al. 2018, for comparison.
+        precise: whether to meet every constraint as exactly as can be. By default the posture
+            stops inside 1 cm and 5° where the rest would cost more than 5° of trunk or drive a
+            joint to its limit; the report tells which constraints were eased and the price.
         strict_body: whether to refuse a text that names a bone, site or morph that the body lacks.
             By default such constraints are left out, with a warning for each name in `left_out`.
     Raises: AZeeError: the text has mistakes, or has no such utterance; cannot-read: there is no
@@ -156,6 +160,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
 
     require_text(text_or_path, expression, utterance)
     _require_options(dominant, fps, mode, seed, life, solver)
+    require_switch(precise, "precise")
     found = folders(libraries)
     body = rig if isinstance(rig, Rig) else load_rig(rig)
     program = load(_source(text_or_path), found)
@@ -169,6 +174,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         seed=seed,
         life=life,
         solver=solver,
+        precise=precise,
         strict_body=strict_body,
     )
 
@@ -198,6 +204,7 @@ def perform(
     seed: int = 0,
     life: bool = True,
     solver: Method = "grouped",
+    precise: bool = False,
     strict_body: bool = False,
 ) -> Compilation:
     """Make a body play a score. The options are those of `compile`.
@@ -210,6 +217,7 @@ def perform(
     from azee.clip.resample import TooManyFramesError, frame_count
 
     _require_options(dominant, fps, mode, seed, life, solver)
+    require_switch(precise, "precise")
     require_switch(strict_body, "strict_body")
     missing = lacks(score, rig, dominant, strict=strict_body)
     if missing and strict_body:
@@ -226,7 +234,15 @@ def perform(
 
         postures = two_level_solver(rig, side)
     animation = animate(
-        score, rig, fps=rate(fps), dominant=side, mode=mode, seed=seed, life=life, solver=postures
+        score,
+        rig,
+        fps=rate(fps),
+        dominant=side,
+        mode=mode,
+        seed=seed,
+        life=life,
+        precise=precise,
+        solver=postures,
     )
     return Compilation(score, rig, animation, missing)
 

@@ -68,6 +68,12 @@ if TYPE_CHECKING:
     show_default=True,
     help="How postures are found; two-level: the iterations of the 2018 paper, for comparison.",
 )
+@click.option(
+    "--precise",
+    is_flag=True,
+    help="Meet constraints at any price; by default the last centimetre and 5° are eased for "
+    "comfort.",
+)
 @click.option("--no-life", is_flag=True, help="No breathing, no blinking and no sway.")
 @click.option(
     "--report",
@@ -103,6 +109,7 @@ def compile_(
     dominant: Hand,
     mode: Mode,
     solver: Method,
+    precise: bool,
     no_life: bool,
     report: Path | None,
     strict_body: bool,
@@ -142,6 +149,7 @@ def compile_(
                     mode=mode,
                     life=not no_life,
                     solver=solver,
+                    precise=precise,
                     strict_body=strict_body,
                 )
             watch.split(made.report)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from azee.export.pictures.scene import Look
     from azee_rig.rig import Rig
 
-OF_TEXTS = ("expression", "utterance", "libraries", "dominant", "no_life")
+OF_TEXTS = ("expression", "utterance", "libraries", "dominant", "precise", "no_life")
 """Options that say how a text is read and solved."""
 _SIZE = re.compile(r"(\d{1,5})\s*[x×]\s*(\d{1,5})", re.ASCII)
 
@@ -84,6 +84,12 @@ def _size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
 @click.option("--transparent", is_flag=True, help="No background; in .png and .webm.")
 @click.option("--rig", metavar="R", help="A body by name, or its folder.")
 @dominant_option
+@click.option(
+    "--precise",
+    is_flag=True,
+    help="Meet constraints at any price; by default the last centimetre and 5° are eased for "
+    "comfort.",
+)
 @click.option("--no-life", is_flag=True, help="No breathing and no blinking.")
 @click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
 def render(
@@ -101,6 +107,7 @@ def render(
     transparent: bool,
     rig: str | None,
     dominant: Hand,
+    precise: bool,
     no_life: bool,
     quiet: bool,
 ) -> None:
@@ -126,7 +133,7 @@ def render(
         clip, body, keys = _of_clip(Path(file), rig, quiet)
     else:
         text = Text.read(file, expression, utterance, libraries)
-        clip, body, keys = _of_text(text, rig or "signer", dominant, not no_life, quiet)
+        clip, body, keys = _of_text(text, rig or "signer", dominant, not no_life, precise, quiet)
     beyond = [m for m in moments if m > clip.times[-1]]
     if beyond:
         raise click.BadParameter(
@@ -151,14 +158,14 @@ def _encoder_there() -> None:
 
 
 def _of_text(
-    text: Text, rig: str, dominant: Hand, life: bool, quiet: bool
+    text: Text, rig: str, dominant: Hand, life: bool, precise: bool, quiet: bool
 ) -> tuple[Clip, Rig, Sequence[float]]:
     from azee.compilation import perform
 
     body = load_body(rig)
     score = text.score(dominant)
     with working("Solving …", quiet=quiet):
-        made = perform(score, body, dominant=dominant, life=life)
+        made = perform(score, body, dominant=dominant, life=life, precise=precise)
     return made.clip, body, made.animation.key_times
 
 

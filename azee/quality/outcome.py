@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 from azee.wording import counted
-
 from azee_solver.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -23,7 +22,7 @@ def outcome(report: MotionReport) -> str:
         return "1 constraint is met" if everything == 1 else f"all {everything} constraints are met"
     parts = [(missed, "out of tolerance"), (eased, "eased for comfort")]
     some = counted(everything, "constraint")
-    said = []
+    said: list[str] = []
     for count, what in parts:
         if count:
             subject = str(count) if said else f"{count} of {some}" if everything > 1 else some

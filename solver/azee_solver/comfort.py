@@ -11,14 +11,13 @@ lean the trunk: it is given up, unless the hand would point elsewhere altogether
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver.anatomy import Part
-from azee_solver.constraint import Orient, Place
+from azee_solver.constraint import Constraint, Orient, Place
 from azee_solver.footprint import part_constrained
 from azee_solver.geometry import Bone, SitePoint
 from azee_solver.group_search import solve_group
@@ -120,7 +119,7 @@ class _ComfortSearch:
         strain = self._price(found.q)
         return replace(
             found,
-            eased={i: self.price for i in found.missed() - self.exact.missed()},
+            eased=dict.fromkeys(found.missed() - self.exact.missed(), self.price),
             strain=strain,
             strained_for=hard if strain else frozenset(),
         )
@@ -188,10 +187,7 @@ class _ComfortSearch:
             return MOST_GIVEN_UP_RAD / self.moment.options.tolerance.of(constraint)
         if not exact <= 1.0:
             return exact + excess(self.exact, self.moment.options) + self._slack(i)
-        touches = isinstance(constraint, Place) and isinstance(constraint.point, SitePoint)
-        if touches and not constraint.distance_m and self.price.trunk_rad <= STILL_RAD:
-            return 1.0
-        return self._slack(i)
+        return 1.0 if _touches(constraint) and not self.price.trunk_rad else self._slack(i)
 
     def _bone(self, i: int) -> Bone | None:
         """Return the bone that an orientation is of."""
@@ -244,3 +240,12 @@ class _ComfortSearch:
         node = self.body.rig.bones["back_2"].node
         a, b = (self.body.frames(p).rotations[node] for p in (q, self.idle))
         return 2.0 * math.asin(min(float(np.linalg.norm(a - b)) / math.sqrt(8.0), 1.0))
+
+
+def _touches(constraint: Constraint) -> bool:
+    """Whether a site of the body is placed on another."""
+    return (
+        isinstance(constraint, Place)
+        and isinstance(constraint.point, SitePoint)
+        and not constraint.distance_m
+    )

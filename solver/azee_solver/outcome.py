@@ -44,6 +44,9 @@ class Price:
         return {"trunk_rad": self.trunk_rad, "limits": [*self.limits]}
 
 
+FREE = Price()
+
+
 @dataclass(frozen=True, slots=True)
 class Strain:
     """A price that a posture pays. subjects: constraints that it is paid for, in AZee's notation."""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver.options import SolveOptions
-from azee_solver.outcome import Price
+from azee_solver.outcome import FREE, Price
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,8 @@ class Result:
     overlap_m: deepest overlap of two capsules. undefined: tasks whose target has no direction.
     given_up: tasks whose weight was lowered in favour of others; they are not in the cost.
     repeats: how many other descents ended there too. eased: what it would have cost to meet tasks
-    that comfort has not met. strain: what the posture costs. strained_for: the tasks for whose sake.
+    that comfort has not met. strain: what the posture costs. strained_for: the tasks for
+    whose sake.
     """
 
     q: Array
@@ -36,7 +37,7 @@ class Result:
     given_up: frozenset[int] = frozenset()
     repeats: int = 0
     eased: Mapping[int, Price] = field(default_factory=dict)
-    strain: Price = Price()
+    strain: Price = FREE
     strained_for: frozenset[int] = frozenset()
 
     def missed(self) -> frozenset[int]:

@@ -7,8 +7,8 @@ a head shakes, and an arm reaches its path from the trunk as it finds it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from azee.motion.curves.movement import Movement
@@ -25,18 +25,22 @@ from azee_solver.task import Task
 MET_SHARE = 0.9
 """A task whose residual is below this share of its tolerance needs no correction."""
 
+ROUNDING = 1e-9
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InBetweenSolver:
     """Solves key postures at instants of a movement.
 
-    infeasible: constraints that a key posture at a boundary could not meet.
+    infeasible: constraints that a key posture at a boundary could not meet. eased: those that one
+    has eased for comfort, and by how much: no more is asked of them between the boundaries.
     """
 
     monitor: ResidualMonitor
     selection: KeySelection
     solver: PostureSolver
     infeasible: frozenset[Constraint] = frozenset()
+    eased: Mapping[Constraint, float] = field(default_factory=dict)
 
     def solve_at(
         self,
@@ -128,7 +132,8 @@ class InBetweenSolver:
 
     def _is_off(self, task: TimedTask, now: MovementSamples) -> bool:
         residual = float(self.monitor.residual(task, now)[0])
-        return not residual <= self.monitor.tolerance(task) * MET_SHARE
+        tolerance = self.monitor.tolerance(task) * MET_SHARE
+        return not residual <= max(tolerance, self.eased.get(task.constraint, 0.0) + ROUNDING)
 
     def _all_but(self, free: frozenset[str]) -> frozenset[int]:
         """Return the coordinates of all other limbs."""

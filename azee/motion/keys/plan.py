@@ -69,7 +69,7 @@ def plan(
     in_use = _limbs_in_use(schedule, motions)
     interpolation = Interpolation(coordinates, limbs, in_use, hands_together=not selection.flat)
     monitor = ResidualMonitor(evaluator, schedule, {}, boundaries.early_ends)
-    in_between = InBetweenSolver(monitor, selection, solver, boundaries.unmet)
+    in_between = InBetweenSolver(monitor, selection, solver, boundaries.unmet, boundaries.eased)
     keys = PathKeys(motions, [*boundaries.postures], in_between, interpolation, frame_times)
     joined = keys.join_boundaries()
 

@@ -99,7 +99,11 @@ def animate(
     # 3 to 10. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
     planned = plan(
-        schedule, evaluator, selection, solver or _default_solver(rig, dominant, precise), frames_inside
+        schedule,
+        evaluator,
+        selection,
+        solver or _default_solver(rig, dominant, precise),
+        frames_inside,
     )
 
     # 11. Sample the movement at the clip's frames, and add trills, face, idle motion and lids.

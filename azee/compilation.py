@@ -67,7 +67,8 @@ class Compilation:
         """Every constraint with its residual, metres or radians; limits and penetration.
 
         `report.met` says whether all constraints are within tolerance, `report.missed` whether one
-        is neither that nor eased for comfort; `report.as_json()` is what `save_report` writes. Penetration in the clip is measured when it is first read.
+        is neither that nor eased for comfort. `report.as_json()` is what `save_report` writes.
+        Penetration in the clip is measured when it is first read.
         """
         return self.animation.report
 

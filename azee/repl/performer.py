@@ -83,9 +83,7 @@ class Performer:
             if self._warming is not None:
                 self._warming.join()
             began = time.perf_counter()
-            self._made = score, perform(
-                score, self.rig, dominant=self.hand, precise=self.precise
-            )
+            self._made = score, perform(score, self.rig, dominant=self.hand, precise=self.precise)
             self.took_s = time.perf_counter() - began
         return self._made[1]
 

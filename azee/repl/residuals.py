@@ -23,7 +23,10 @@ def summary(report: MotionReport, took_s: float) -> Iterator[Line]:
     for result in (*missed, *eases(report)):
         where = "/".join(result.path)
         yield (
-            (Ink.BAD if result.missed else Ink.FAINT, f"  {where + ': ' if where else ''}{result.text}"),
+            (
+                Ink.BAD if result.missed else Ink.FAINT,
+                f"  {where + ': ' if where else ''}{result.text}",
+            ),
             (Ink.PLAIN, f" {shortfall(result)}"),
         )
     for strain in strains(report):

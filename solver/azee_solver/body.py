@@ -52,8 +52,8 @@ class Body:
     limits: tuple[Array, Array] | None = None
     anatomy: Anatomy = field(init=False)
     obstacles: Obstacles = field(init=False)
-    _weights: dict[bool, tuple[Array, Array, float, Mapping[int, int], Mapping[int, float]]] = field(
-        init=False, default_factory=dict
+    _weights: dict[bool, tuple[Array, Array, float, Mapping[int, int], Mapping[int, float]]] = (
+        field(init=False, default_factory=dict)
     )
 
     def __post_init__(self) -> None:

@@ -1,11 +1,17 @@
 """Comfort is a price: what the last millimetres and degrees may cost the rest of the body.
 
-The exact answer of a group may throw the trunk to its limits for two millimetres. Where it moves
-the trunk by more than 5°, or drives a coordinate of trunk, head or arms to its limit, `eased` solves
-the group again inside narrower limits: the trunk near the reference, all else short of its limits.
-What comes of that is taken if every constraint stays inside the tolerance of Nunnari, Filhol and
-Heloir 2018 (1 cm, 5°), with as little lean of the trunk as that takes. An orientation alone may not
-lean the trunk: it is given up, unless the hand would point elsewhere altogether.
+The exact answer of a group may lean the trunk by 27° for the last six millimetres. Where it leans
+by more than 5°, or drives a coordinate of trunk, head or arms to its limit, `eased` solves the same
+group again inside narrower limits, and takes the first answer that costs no constraint more than
+the tolerance of Nunnari, Filhol and Heloir 2018 (1 cm, 5°):
+
+1. the trunk within 5° of neutral, all else short of its limits;
+2. the same, and orientations are given up: one alone does not lean the trunk;
+3. the trunk leans as little as will do, all else short of its limits;
+4. the trunk as it is, all else short of its limits.
+
+Where the exact answer does not lean the trunk, only 4 is tried. A task that the exact answer misses
+may be missed by that tolerance more, and by as much as the exact answer lies in the body.
 """
 
 from __future__ import annotations
@@ -44,7 +50,7 @@ HALVINGS = 4
 """Of the range between a trunk that is still and the exact answer's: the lean is the least to
 within a sixteenth."""
 STIFF_OVERLAP = 16.0
-"""Factor of the overlap's weight: a constraint is eased rather than a hand pressed into the body."""
+"""Factor of the overlap's weight: a constraint is eased before a hand presses into the body."""
 
 _STILL_EACH_RAD = 0.98 * STILL_RAD / (2.0 * math.sqrt(3.0))
 """Of each of the six coordinates of two joints: together these turn the trunk by at most 5°."""
@@ -125,7 +131,7 @@ class _ComfortSearch:
         )
 
     def _with_trunk(self) -> tuple[Result | None, frozenset[int]]:
-        """Keep the trunk still; else give orientations up; else lean it as little as will do.
+        """Try the answers 1 to 3 above.
 
         Returns: also the tasks that are not even eased while the trunk is still.
         """
@@ -230,7 +236,7 @@ class _ComfortSearch:
         return Price(lean if lean > STILL_RAD else 0.0, stopped)
 
     def _lean(self, q: Array) -> float:
-        """Angle between the upper trunk and its neutral orientation, radians, where it is a price."""
+        """Angle of the upper trunk from neutral, radians; 0 where it leans for free."""
         if not self.trunk:
             return 0.0
         low, high = self._free_lean()

@@ -1,4 +1,4 @@
-"""What became of a constraint: met, eased for comfort, or missed; and what meeting it would cost."""
+"""What became of a constraint: met, eased for comfort or missed; what meeting it would cost."""
 
 from __future__ import annotations
 
@@ -49,7 +49,10 @@ FREE = Price()
 
 @dataclass(frozen=True, slots=True)
 class Strain:
-    """A price that a posture pays. subjects: constraints that it is paid for, in AZee's notation."""
+    """A price that a posture pays.
+
+    subjects: the constraints that it is paid for, in AZee's notation.
+    """
 
     price: Price
     subjects: tuple[str, ...]

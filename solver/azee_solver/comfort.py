@@ -18,11 +18,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver.anatomy import Part
+from azee_solver.body import Body
 from azee_solver.constraint import Constraint, Orient, Place
 from azee_solver.footprint import part_constrained
 from azee_solver.geometry import Bone, SitePoint
@@ -78,31 +80,33 @@ class _ComfortSearch:
     def __init__(
         self, moment: Moment, group: Group, q: Array, unsettled: frozenset[int], exact: Result
     ) -> None:
-        body, anatomy = moment.body, moment.body.anatomy
-        self.moment, self.group, self.q = moment, group, q
-        self.unsettled, self.exact = unsettled, exact
+        self.moment, self.q, self.unsettled, self.exact = moment, q, unsettled, exact
         self.tasks = moment.tasks_of(group)
         self.free = group.free - self._shaped()
-        self.idle = np.array(body.rig.coordinates.idle)
-        self.limits: Limits = body.rig.coordinates.lower, body.rig.coordinates.upper
-        bodily = anatomy.of(Part.TRUNK, Part.HEAD, Part.ARM)
-        self.bodily = sorted(bodily & self.free)
-        self.trunk = sorted(anatomy.of(Part.TRUNK) & self.free)
-        binding = body.evaluator.binding
-        if any(part_constrained(t.constraint, binding) is Part.TRUNK for t in self.tasks.values()):
-            self.trunk = []
-        options = moment.options
-        self.body = replace(
-            body,
-            options=replace(
-                options,
-                far=False,
-                overlap=STIFF_OVERLAP * options.overlap,
-                patience=max(options.patience, 1),
-            ),
-            evaluations=0,
-        )
+        anatomy, coordinates = moment.body.anatomy, moment.body.rig.coordinates
+        self.bodily = sorted(anatomy.of(Part.TRUNK, Part.HEAD, Part.ARM) & self.free)
+        self.trunk = [] if self._trunk_is_asked() else sorted(anatomy.of(Part.TRUNK) & self.free)
+        self.idle: Array = coordinates.idle
+        self.limits: Limits = coordinates.lower, coordinates.upper
         self.price = self._price(exact.q)
+
+    @cached_property
+    def body(self) -> Body:
+        """The body of the attempts; its limits are those of the last one."""
+        options = self.moment.options
+        stiff = replace(
+            options,
+            far=False,
+            overlap=STIFF_OVERLAP * options.overlap,
+            patience=max(options.patience, 1),
+        )
+        return replace(self.moment.body, options=stiff, evaluations=0)
+
+    def _trunk_is_asked(self) -> bool:
+        """Whether the text itself turns the trunk: then its lean has no price."""
+        binding = self.moment.body.evaluator.binding
+        tasks = self.tasks.values()
+        return any(part_constrained(t.constraint, binding) is Part.TRUNK for t in tasks)
 
     def _shaped(self) -> frozenset[int]:
         """Coordinates of handshapes that the exact answer keeps: comfort is not theirs to give."""
@@ -229,7 +233,7 @@ class _ComfortSearch:
 
     def _price(self, q: Array) -> Price:
         """Return what a posture costs."""
-        names, (lower, upper) = self.body.rig.coordinates.names, self.limits
+        names, (lower, upper) = self.moment.body.rig.coordinates.names, self.limits
         stops = np.minimum(q - lower, upper - q)[self.bodily] < NEAR_LIMIT_RAD
         stopped = tuple(names[v] for v, s in zip(self.bodily, stops.tolist(), strict=True) if s)
         lean = self._lean(q)
@@ -243,8 +247,9 @@ class _ComfortSearch:
         there = q[self.trunk]
         if np.all(there >= low - _ROUNDING) and np.all(there <= high + _ROUNDING):
             return 0.0
-        node = self.body.rig.bones["back_2"].node
-        a, b = (self.body.frames(p).rotations[node] for p in (q, self.idle))
+        body = self.moment.body
+        node = int(np.flatnonzero(body.anatomy.owns[:, self.trunk].any(axis=1))[-1])
+        a, b = (body.frames(p).rotations[node] for p in (q, self.idle))
         return 2.0 * math.asin(min(float(np.linalg.norm(a - b)) / math.sqrt(8.0), 1.0))
 
 

@@ -7,8 +7,8 @@ the tolerance of Nunnari, Filhol and Heloir 2018 (1 cm, 5°):
 
 1. the trunk within 5° of neutral, all else short of its limits;
 2. the same, and orientations are given up: one alone does not lean the trunk;
-3. the trunk leans as little as will do, all else short of its limits;
-4. the trunk as it is, all else short of its limits.
+3. the trunk leans as little as will do, all else short of its limits, if that spares 5°;
+4. the trunk as it is, all else short of its limits, and what touches goes on touching.
 
 Where the exact answer does not lean the trunk, only 4 is tried. A task that the exact answer misses
 may be missed by that tolerance more, and by as much as the exact answer lies in the body.
@@ -120,9 +120,9 @@ class _ComfortSearch:
         found, hard = None, frozenset[int]()
         if self.price.trunk_rad > STILL_RAD:
             found, hard = self._with_trunk()
-        if found is None:
-            found, more = self._attempt(self._inside())
-            hard |= more
+        if found is None or self._lean(found.q) > max(STILL_RAD, self.price.trunk_rad - STILL_RAD):
+            other, more = self._attempt()
+            found, hard = other or found, hard | more
         self.moment.body.evaluations += self.body.evaluations
         if found is None:
             return replace(self.exact, strain=self.price, strained_for=hard)
@@ -139,21 +139,20 @@ class _ComfortSearch:
 
         Returns: also the tasks that are not even eased while the trunk is still.
         """
-        still = self._inside(0.0)
-        found, hard = self._attempt(still)
+        found, hard = self._attempt(0.0)
         if found is not None:
             return found, hard
         orientations = frozenset(
             i for i, t in self.tasks.items() if isinstance(t.constraint, Orient)
         )
         if orientations:
-            found, _ = self._attempt(still, given_up=orientations)
+            found, _ = self._attempt(0.0, orientations)
             if found is not None:
                 return found, hard
         least, most = 0.0, 1.0
         for _ in range(HALVINGS):
             middle = 0.5 * (least + most)
-            other, _ = self._attempt(self._inside(middle))
+            other, _ = self._attempt(middle)
             if other is None:
                 least = middle
             else:
@@ -161,16 +160,16 @@ class _ComfortSearch:
         return found, hard
 
     def _attempt(
-        self, limits: Limits, given_up: frozenset[int] = frozenset()
+        self, lean: float = 1.0, given_up: frozenset[int] = frozenset()
     ) -> tuple[Result | None, frozenset[int]]:
         """Solve the group inside limits; none if that costs too much. Also the tasks that it costs.
 
-        Args: given_up: tasks that may be missed.
+        Args: lean: see `_inside`. given_up: tasks that may be missed.
         """
         exact, options = self.exact, self.moment.options
         factors = {i: GIVEN_UP_PULL / exact.ratios[i] for i in exact.missed() - exact.undefined}
         factors |= {i: GIVEN_UP_PULL / self._slack(i) for i in given_up}
-        self.body.limits = limits
+        self.body.limits = self._inside(lean)
         found = solve_group(
             self.body,
             self.tasks,
@@ -184,11 +183,11 @@ class _ComfortSearch:
         )
         allowed_m = max(exact.overlap_m, options.overlap_m) + options.tolerance.length_m
         costs = frozenset(
-            i for i in found.ratios if not found.ratios[i] <= self._allowed(i, given_up)
+            i for i in found.ratios if not found.ratios[i] <= self._allowed(i, lean, given_up)
         )
         return None if costs or found.overlap_m > allowed_m else found, costs
 
-    def _allowed(self, i: int, given_up: frozenset[int]) -> float:
+    def _allowed(self, i: int, lean: float, given_up: frozenset[int]) -> float:
         """How far off a task may be, in tolerances."""
         exact, constraint = self.exact.ratios[i], self.tasks[i].constraint
         if i in given_up:
@@ -197,7 +196,7 @@ class _ComfortSearch:
             return MOST_GIVEN_UP_RAD / self.moment.options.tolerance.of(constraint)
         if not exact <= 1.0:
             return exact + excess(self.exact, self.moment.options) + self._slack(i)
-        return 1.0 if _touches(constraint) and not self.price.trunk_rad else self._slack(i)
+        return 1.0 if _touches(constraint) and lean == 1.0 else self._slack(i)
 
     def _bone(self, i: int) -> Bone | None:
         """Return the bone that an orientation is of."""

@@ -19,7 +19,22 @@ key .5
         orient 'nrm !palm(s) 'along ^back
         :#hamceeall
 """
-SHAKEN = ":not-but(:arbre, :armoire)"
+SHAKEN = """
+sync
+    'TREE
+    key .8
+        cstr
+            place(@H_BACK(w), vtranslate(^Mssp, vsum(scale(out(s), .18), vec(0, -.02, -.08))))
+            orient 'nrm !palm(w) 'along ^up
+            orient 'dir !palm(w) 'along dir(!f_arm(w))
+            place(@EL(s), @PA(w), 'contact)
+            orient 'dir !f_arm(s) 'along ^up
+            orient 'dir !palm(s) 'along dir(!f_arm(s))
+    'GAZE (key .4 (lookat ^addressee))
+    'start 'TREE:end:-.1
+    'SHAKE :headshake
+    'start 'TREE:end:-.1
+"""
 HELD_S = 0.8
 FAR = "key .5 (place @I_TIP(s) point(-.15, -.1, .74))"
 

@@ -88,6 +88,7 @@ def animate(
     seed: int | None = None,
     life: bool = True,
     rest: Rest = DEFAULT,
+    precise: bool = False,
     solver: PostureSolver | None = None,
     timing: Timing | None = None,
     tempo: float = 1.0,
@@ -97,7 +98,8 @@ def animate(
 
     Args: fps: frames per second, positive. mode: which limbs key postures key. seed: of the
         blinks and of life; by default `seed_of(score)`. life: whether to add these. rest: where
-        arms are that nothing needs. solver: what solves key postures; `azee_solver.solve` if none
+        arms are that nothing needs. precise: whether to meet constraints at any price of comfort.
+        solver: what solves key postures; `azee_solver.solve` if none
         is given. timing: whether ways that are too long for their time get more of it; by default
         they do in tracks and not in flat mode. tempo: how many times faster all is that is not
         fixed. pace: how fast arms go.
@@ -124,7 +126,7 @@ def animate(
     seed = seed_of(score) if seed is None else seed
 
     # 1. Give ways their time: scale the score, and bend it where an arm has too far to go.
-    postures = solver or _default_solver(rig, dominant)
+    postures = solver or _default_solver(rig, dominant, precise)
     score = paced(score, 1 / Fraction(str(float(tempo))))
     performance, needed_s = Performance(score), None
     if timing == "performed":
@@ -212,7 +214,7 @@ def animate(
     return Animation(score, clip, report, key_times, lead_s, by_block)
 
 
-def _default_solver(rig: Rig, dominant: Side) -> PostureSolver:
+def _default_solver(rig: Rig, dominant: Side, precise: bool) -> PostureSolver:
     def answer(
         ik_tasks: Sequence[Task],
         *,
@@ -221,7 +223,7 @@ def _default_solver(rig: Rig, dominant: Side) -> PostureSolver:
         search: Search = Search.GLOBAL,
         fixed: frozenset[int] = frozenset(),
     ) -> SolveReport:
-        options = SolveOptions(fixed=fixed)
+        options = SolveOptions(precise=precise, fixed=fixed)
         if search is Search.LOCAL:
             options = replace(options, far=False, patience=0)
         return solve(

@@ -72,8 +72,9 @@ class Compilation:
     def report(self) -> MotionReport:
         """Every constraint with its residual, metres or radians; limits and penetration.
 
-        `report.met` says whether all constraints are within tolerance; `report.as_json()` is what
-        `save_report` writes. Penetration in the clip is measured when it is first read.
+        `report.met` says whether all constraints are within tolerance, `report.missed` whether one
+        is neither that nor eased for comfort. `report.as_json()` is what `save_report` writes.
+        Penetration in the clip is measured when it is first read.
         """
         return self.animation.report
 
@@ -125,6 +126,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     life: bool = True,
     rest: Rest = "folded",
     solver: Method = "grouped",
+    precise: bool = False,
     strict_body: bool = False,
     timing: Timing | None = None,
     tempo: float = 1.0,
@@ -154,6 +156,9 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
             bent.
         solver: how postures are found. grouped: problems that share coordinates are solved
             together. two-level: the iteration of Nunnari et al. 2018, for comparison.
+        precise: whether to meet every constraint as exactly as can be. By default the posture
+            stops inside 1 cm and 5° where the rest would cost more than 5° of trunk or drive a
+            joint to its limit; the report tells which constraints were eased and the price.
         strict_body: whether to refuse a text that names a bone, site or morph that the body lacks.
             By default such constraints are left out, with a warning for each name in `left_out`.
         timing: performed: where an arm has too far to go for its time, the score gets longer, and
@@ -173,6 +178,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
 
     require_text(text_or_path, expression, utterance)
     _require_options(dominant, fps, mode, seed, life, rest, solver, timing, tempo)
+    require_switch(precise, "precise")
     found = folders(libraries)
     body = rig if isinstance(rig, Rig) else load_rig(rig)
     program = load(_source(text_or_path), found)
@@ -187,6 +193,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         life=life,
         rest=rest,
         solver=solver,
+        precise=precise,
         strict_body=strict_body,
         timing=timing,
         tempo=tempo,
@@ -219,6 +226,7 @@ def perform(
     life: bool = True,
     rest: Rest = "folded",
     solver: Method = "grouped",
+    precise: bool = False,
     strict_body: bool = False,
     timing: Timing | None = None,
     tempo: float = 1.0,
@@ -234,6 +242,7 @@ def perform(
     from azee.lang.unshowable import beyond_frames
 
     _require_options(dominant, fps, mode, seed, life, rest, solver, timing, tempo)
+    require_switch(precise, "precise")
     require_switch(strict_body, "strict_body")
     missing = lacks(score, rig, dominant, strict=strict_body)
     if missing and strict_body:
@@ -258,6 +267,7 @@ def perform(
         seed=seed,
         life=life,
         rest=rest,
+        precise=precise,
         solver=postures,
         timing=timing,
         tempo=float(tempo),

@@ -79,6 +79,12 @@ if TYPE_CHECKING:
 )
 @rest_option
 @timing_options
+@click.option(
+    "--precise",
+    is_flag=True,
+    help="Meet constraints at any price; by default the last centimetre and 5° are eased for "
+    "comfort.",
+)
 @click.option("--no-life", is_flag=True, help="No breathing, no blinking and no sway.")
 @click.option(
     "--report",
@@ -117,6 +123,7 @@ def compile_(
     rest: Rest,
     timing: Timing | None,
     tempo: float,
+    precise: bool,
     no_life: bool,
     report: Path | None,
     strict_body: bool,
@@ -157,6 +164,7 @@ def compile_(
                     life=not no_life,
                     rest=rest,
                     solver=solver,
+                    precise=precise,
                     strict_body=strict_body,
                     timing=timing,
                     tempo=tempo,
@@ -190,7 +198,7 @@ def compile_(
         news(outcome_lines(made, files), quiet=quiet)
         if profile:
             watch.show()
-    return MISSED if strict and not made.report.met else DONE
+    return MISSED if strict and made.report.missed else DONE
 
 
 def _warnings(text: Text, made: Compilation) -> list[Diagnostic]:

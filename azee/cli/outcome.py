@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from azee.cli.outputs import size_of
-from azee.quality.outcome import longer, misses, outcome, shortfall
+from azee.quality.outcome import eases, longer, misses, outcome, shortfall, strains
 from azee.wording import counted
 
 if TYPE_CHECKING:
@@ -16,16 +16,17 @@ if TYPE_CHECKING:
 
 
 def outcome_lines(made: Compilation, written: Sequence[Path]) -> str:
-    """Return the lines: length, key postures, longer transitions, misses with reasons, files."""
+    """Return the lines: length, key postures, longer transitions, shortfalls, strains, files."""
     report = made.report
     length = f"{report.duration_s:.2f} s at {report.fps:g} frames a second"
-    missed = misses(report)
+    fallen_short = [*misses(report), *eases(report)]
     lines = [
         f"{length}, {counted(len(report.postures), 'key posture')}",
         *longer(report),
         *_iterations(made),
-        outcome(report) + (":" if missed else ""),
-        *map(_miss, missed),
+        outcome(report) + (":" if fallen_short else ""),
+        *map(_shortfall, fallen_short),
+        *strains(report),
         *(f"wrote {path} ({size_of(path)})" for path in written),
     ]
     if not written:
@@ -45,7 +46,7 @@ def _iterations(made: Compilation) -> list[str]:
     return [f"{counted(len(took), 'IK problem')} in {counted(sum(took), 'iteration')}; {hard}"]
 
 
-def _miss(result: ConstraintResult) -> str:
+def _shortfall(result: ConstraintResult) -> str:
     where = "/".join(result.path)
     when = f"{result.start_s:.2f}–{result.end_s:.2f} s"
     return f"  {when} {where + ': ' if where else ''}{result.text}: {shortfall(result)}"

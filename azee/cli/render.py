@@ -34,7 +34,8 @@ if TYPE_CHECKING:
     from azee_rig.rig import Rig
 
 OF_TEXTS = (
-    "expression", "utterance", "libraries", "dominant", "rest", "timing", "tempo", "no_life"
+    "expression", "utterance", "libraries", "dominant", "rest", "precise", "timing", "tempo",
+    "no_life",
 )  # fmt: skip
 """Options that say how a text is read and solved."""
 _SIZE = re.compile(r"(\d{1,5})\s*[x×]\s*(\d{1,5})", re.ASCII)
@@ -96,6 +97,12 @@ def _size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
 @dominant_option
 @rest_option
 @timing_options
+@click.option(
+    "--precise",
+    is_flag=True,
+    help="Meet constraints at any price; by default the last centimetre and 5° are eased for "
+    "comfort.",
+)
 @click.option("--no-life", is_flag=True, help="No breathing and no blinking.")
 @click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
 def render(
@@ -116,6 +123,7 @@ def render(
     rest: Rest,
     timing: Timing | None,
     tempo: float,
+    precise: bool,
     no_life: bool,
     quiet: bool,
 ) -> None:
@@ -148,8 +156,8 @@ def render(
         score = text.score(dominant)
         with working("Solving …", quiet=quiet):
             made = perform(
-                score, body, dominant=dominant, life=not no_life, rest=rest, timing=timing,
-                tempo=tempo,
+                score, body, dominant=dominant, life=not no_life, rest=rest, precise=precise,
+                timing=timing, tempo=tempo,
             )  # fmt: skip
         for line in longer(made.report):
             news(line, quiet=quiet)

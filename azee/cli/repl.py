@@ -25,6 +25,12 @@ SHIPPED = "signer"
 @library_option
 @click.option("--rig", metavar="R", default=SHIPPED, show_default=True, help="The body that plays.")
 @dominant_option
+@click.option(
+    "--precise",
+    is_flag=True,
+    help="Meet constraints at any price; by default the last centimetre and 5° are eased for "
+    "comfort.",
+)
 @click.option("--plain", is_flag=True, help="No line editing, no colours, no completion.")
 @click.option("--no-history", is_flag=True, help="Neither read nor keep what was typed.")
 @click.option(
@@ -37,6 +43,7 @@ def repl(
     libraries: Sequence[Path],
     rig: str,
     dominant: Hand,
+    precise: bool,
     plain: bool,
     no_history: bool,
     solve: bool | None,
@@ -64,7 +71,7 @@ def repl(
         from azee.repl.prompt import terminal_screen
 
         screen = terminal_screen()
-    performer = Performer(rig, dominant)
+    performer = Performer(rig, dominant, precise=precise)
     answering = Repl(
         Session(libraries),
         performer,

@@ -110,7 +110,7 @@ def _table(shown: MotionReport) -> str:
             r.text,
             amount(r.residual, r.unit),
             amount(r.tolerance, r.unit),
-            "met" if r.met else r.reason or "not met",
+            "met" if r.met else r.reason or f"eased: meeting it would take {r.price}",
         )
         for r in sorted(shown.constraints, key=lambda r: (r.met, r.start_s, r.path))
     )

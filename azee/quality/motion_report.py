@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -21,9 +21,12 @@ from azee.quality.measures import CoordinatePeaks, Penetration
 from azee_rig.coordinates import Coordinates
 from azee_solver.constraint import Morph, Rotate, Trill
 from azee_solver.notation import operator_text, subject_text, target_text
+from azee_solver.outcome import Outcome, Price, Strain
+from azee_solver.tolerance import PAPER
 
 if TYPE_CHECKING:
     from azee.motion.tasks.key_posture import KeyPosture
+    from azee_solver.solve_report import ConstraintReport
 
 Array = NDArray[np.float64]
 
@@ -39,7 +42,8 @@ class ConstraintResult:
     """One constraint of one block, measured over the whole block.
 
     residual: the largest at any frame or key inside the block, metres or radians; none where the
-    geometry it names is degenerate. Times are the score's.
+    geometry it names is degenerate. reason: why it is missed, else none. price: what meeting it
+    would have cost, where comfort kept it from that. Times are the score's.
     """
 
     path: tuple[str, ...]
@@ -54,6 +58,19 @@ class ConstraintResult:
     tolerance: float
     met: bool
     reason: str | None
+    price: Price | None = None
+
+    @property
+    def missed(self) -> bool:
+        """Whether it is neither met nor eased."""
+        return self.outcome is Outcome.MISSED
+
+    @property
+    def outcome(self) -> Outcome:
+        """What became of it."""
+        if self.met:
+            return Outcome.MET
+        return Outcome.MISSED if self.reason is not None else Outcome.EASED
 
     @property
     def text(self) -> str:
@@ -74,7 +91,9 @@ class ConstraintResult:
             "unit": self.unit,
             "tolerance": self.tolerance,
             "met": self.met,
+            "outcome": self.outcome.value,
             "reason": self.reason,
+            "price": self.price.as_json() if self.price else None,
         }
 
 
@@ -133,6 +152,21 @@ class MotionReport:
         return all(c.met for c in self.constraints)
 
     @property
+    def missed(self) -> bool:
+        """Whether a constraint is missed: neither met nor eased for comfort."""
+        return any(c.missed for c in self.constraints)
+
+    @property
+    def strains(self) -> tuple[tuple[float, Strain], ...]:
+        """Where key postures are beyond the comfortable: times of the score, and what they pay."""
+        return tuple(
+            (float(p.time), strain)
+            for p in self.postures
+            if not p.reused
+            for strain in p.report.strains
+        )
+
+    @property
     def evaluations(self) -> int:
         """Evaluations of the solver's objectives, all solves together."""
         return sum(p.report.evaluations for p in self.postures if not p.reused)
@@ -165,6 +199,7 @@ class MotionReport:
             "solve_s": self.solve_s,
             "explain_s": self.explain_s,
             "constraints": [c.as_json() for c in self.constraints],
+            "strains": [{"time_s": time, **strain.as_json()} for time, strain in self.strains],
             "limits": {"max_excess_rad": self.max_excess_rad, "joint": self.excess_joint},
             "penetration": [row for p in self.postures for row in _penetration(p)],
             "clip_penetration": [p.as_json() for p in self.clip_penetration],
@@ -208,10 +243,27 @@ def _measured(task: TimedTask, plan: Plan, samples: MovementSamples) -> Constrai
     values = monitor.residual(task, samples.only(rows))
     residual = float(np.max(values, initial=0.0))
     unit, tolerance = monitor.unit(task), monitor.tolerance(task)
-    reason = None
+    reason = price = None
     if not residual <= tolerance * _ROUNDING:
-        reason = _reason(task, plan, residual)
-    return _result(task, residual, unit, tolerance, reason)
+        price = _price(task, plan)
+        if price is None or not residual <= PAPER.of(task.constraint) * _ROUNDING:
+            reason = _reason(task, plan, residual)
+    return _result(task, residual, unit, tolerance, reason, price)
+
+
+def _answers(task: TimedTask, plan: Plan) -> Iterator[ConstraintReport]:
+    """Yield the solver's answers for a task that it has not met at keys."""
+    for posture in plan.postures:
+        if task in posture.timed_tasks:
+            for answer in posture.report.constraints:
+                if not answer.met and answer.task.rank == task.rank:
+                    yield answer
+
+
+def _price(task: TimedTask, plan: Plan) -> Price | None:
+    """Return what meeting a task would have cost where it costs most, if comfort eased it."""
+    prices = (answer.price for answer in _answers(task, plan))
+    return max(filter(None, prices), default=None)
 
 
 def _reason(task: TimedTask, plan: Plan, residual: float) -> str:
@@ -222,16 +274,13 @@ def _reason(task: TimedTask, plan: Plan, residual: float) -> str:
             f"ends early, at {float(early.time):.3f} s: {'/'.join(early.successor)} "
             "starts at the instant this ends and needs another posture"
         )
-    worst, found = -math.inf, None
-    for posture in plan.postures:
-        for answer in posture.report.constraints:
-            same = answer.task.constraint == task.constraint
-            if same and task in posture.timed_tasks and not answer.met and answer.residual > worst:
-                worst, found = answer.residual, answer.reason
-    if found:
-        return found
+    missed = [answer for answer in _answers(task, plan) if answer.reason is not None]
+    if missed:
+        return str(max(missed, key=lambda answer: answer.residual).reason)
     if not math.isfinite(residual):
         return "the geometry it names is degenerate"
+    if any(_answers(task, plan)):
+        return "eased at the keys but farther off at a frame between them"
     return "met at the keys but not at every frame between them"
 
 
@@ -270,6 +319,7 @@ def _result(
     unit: str,
     tolerance: float,
     reason: str | None,
+    price: Price | None = None,
 ) -> ConstraintResult:
     return ConstraintResult(
         path=task.path,
@@ -282,8 +332,9 @@ def _result(
         residual=residual if math.isfinite(residual) else None,
         unit=unit,
         tolerance=tolerance,
-        met=reason is None,
+        met=residual <= tolerance * _ROUNDING and reason is None,
         reason=reason,
+        price=price,
     )
 
 

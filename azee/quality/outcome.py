@@ -6,22 +6,28 @@ import math
 from typing import TYPE_CHECKING
 
 from azee.wording import counted
+from azee_solver.outcome import Outcome
 
 if TYPE_CHECKING:
     from azee.quality.motion_report import ConstraintResult, MotionReport
+    from azee_solver.outcome import Strain
 
 
 def outcome(report: MotionReport) -> str:
     """Return `all 16 constraints are met`, `1 of 16 constraints is out of tolerance`."""
-    everything, missed = len(report.constraints), len(misses(report))
+    everything, missed, eased = len(report.constraints), len(misses(report)), len(eases(report))
     if not everything:
         return "no constraint to meet"
-    if not missed:
+    if not missed and not eased:
         return "1 constraint is met" if everything == 1 else f"all {everything} constraints are met"
+    parts = [(missed, "out of tolerance"), (eased, "eased for comfort")]
     some = counted(everything, "constraint")
-    if everything > 1:
-        some = f"{missed} of {some}"
-    return f"{some} {'is' if missed == 1 else 'are'} out of tolerance"
+    said: list[str] = []
+    for count, what in parts:
+        if count:
+            subject = str(count) if said else f"{count} of {some}" if everything > 1 else some
+            said.append(f"{subject} {'is' if count == 1 else 'are'} {what}")
+    return ", ".join(said)
 
 
 def longer(report: MotionReport) -> list[str]:
@@ -36,12 +42,30 @@ def longer(report: MotionReport) -> list[str]:
 
 def misses(report: MotionReport) -> list[ConstraintResult]:
     """Return the constraints that are out of tolerance."""
-    return [result for result in report.constraints if not result.met]
+    return [result for result in report.constraints if result.missed]
+
+
+def eases(report: MotionReport) -> list[ConstraintResult]:
+    """Return the constraints that are eased for comfort, inside 1 cm and 5°."""
+    return [result for result in report.constraints if result.outcome is Outcome.EASED]
 
 
 def shortfall(result: ConstraintResult) -> str:
     """Say of a constraint that is not met by how much and why."""
-    return f"off by {amount(result.residual, result.unit)}, {result.reason}"
+    off = f"off by {amount(result.residual, result.unit)}"
+    if result.outcome is Outcome.EASED:
+        return f"{off} for comfort: meeting it would take {result.price}"
+    return f"{off}, {result.reason}"
+
+
+def strains(report: MotionReport) -> list[str]:
+    """Say where the body is beyond the comfortable, and for what: a line for each such purpose."""
+    worst: dict[tuple[str, ...], tuple[float, Strain]] = {}
+    for time_s, strain in report.strains:
+        known = worst.get(strain.subjects)
+        if known is None or known[1].price < strain.price:
+            worst[strain.subjects] = time_s, strain
+    return [f"{time_s:.2f} s: {strain}" for time_s, strain in worst.values()]
 
 
 def amount(residual: float | None, unit: str) -> str:

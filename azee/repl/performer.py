@@ -38,11 +38,15 @@ SHOWN_S = Fraction(1)
 
 
 class Performer:
-    """Solves scores, each once, and loads body and solver in the background."""
+    """Solves scores, each once, and loads body and solver in the background.
 
-    def __init__(self, rig_name: str, hand: Hand) -> None:
+    precise: whether constraints are met at any price of comfort.
+    """
+
+    def __init__(self, rig_name: str, hand: Hand, *, precise: bool = False) -> None:
         self.rig_name = rig_name
         self.hand: Hand = hand
+        self.precise = precise
         self._rig: Rig | None = None
         self._made: tuple[Score, Compilation] | None = None
         self._warming: threading.Thread | None = None
@@ -79,7 +83,7 @@ class Performer:
             if self._warming is not None:
                 self._warming.join()
             began = time.perf_counter()
-            self._made = score, perform(score, self.rig, dominant=self.hand)
+            self._made = score, perform(score, self.rig, dominant=self.hand, precise=self.precise)
             self.took_s = time.perf_counter() - began
         return self._made[1]
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from azee.quality.outcome import amount, misses, outcome, shortfall
+from azee.quality.outcome import amount, eases, misses, outcome, shortfall, strains
 from azee.repl.ink import Ink, Line, cut, width
 from azee.wording import counted
+from azee_solver.outcome import Outcome
 
 if TYPE_CHECKING:
     from azee.quality.motion_report import ConstraintResult, MotionReport
@@ -19,12 +20,17 @@ def summary(report: MotionReport, took_s: float) -> Iterator[Line]:
     ink = Ink.BAD if missed else Ink.GOOD if report.constraints else Ink.FAINT
     keys = counted(len(report.postures), "key posture")
     yield ((Ink.FAINT, f"solved in {took_s:.2f} s: {keys}, "), (ink, outcome(report)))
-    for result in missed:
+    for result in (*missed, *eases(report)):
         where = "/".join(result.path)
         yield (
-            (Ink.BAD, f"  {where + ': ' if where else ''}{result.text}"),
+            (
+                Ink.BAD if result.missed else Ink.FAINT,
+                f"  {where + ': ' if where else ''}{result.text}",
+            ),
             (Ink.PLAIN, f" {shortfall(result)}"),
         )
+    for strain in strains(report):
+        yield ((Ink.FAINT, f"  {strain}"),)
 
 
 def table(report: MotionReport, columns: int) -> Iterator[Line]:
@@ -39,12 +45,18 @@ def table(report: MotionReport, columns: int) -> Iterator[Line]:
     widths[2] = min(widths[2], max(12, room - widths[1]))
     yield ((Ink.FAINT, _row(_HEAD, widths)),)
     for result, row in zip(rows, cells, strict=True):
-        mark = (Ink.GOOD, " ✓") if result.met else (Ink.BAD, " ✗")
+        mark = _MARKS[result.outcome]
         yield ((Ink.PLAIN, _row(row, widths)), mark)
-        if result.reason:
-            yield ((Ink.BAD, f"{' ' * (widths[0] + 2)}{result.reason}"),)
+        why = result.reason or (f"it would take {result.price}" if not result.met else "")
+        if why:
+            yield ((mark[0], f"{' ' * (widths[0] + 2)}{why}"),)
 
 
+_MARKS: dict[Outcome, tuple[Ink, str]] = {
+    Outcome.MET: (Ink.GOOD, " ✓"),
+    Outcome.EASED: (Ink.FAINT, " ≈"),
+    Outcome.MISSED: (Ink.BAD, " ✗"),
+}
 _HEAD = ("seconds", "block", "constraint", "off by", "of")
 
 

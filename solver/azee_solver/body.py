@@ -30,8 +30,10 @@ Array = NDArray[np.float64]
 
 EYE_STIFFNESS, NECK_STIFFNESS = 0.1, 3.0
 """Of eyes and neck while the eyes are led; the head has 1. They turn first, it last."""
-EYE_COMFORT = 300.0
-"""Keeps led eyes in the middle of their range, so that the head takes the rest."""
+EYE_RANGE_RAD = math.radians(15.0)
+"""How far led eyes turn before the head takes the rest."""
+EYE_COMFORT = 10.0
+"""Joint-limit cost of what they turn beyond that."""
 FOLLOWING_STIFFNESS = 4.0
 """Of last finger joints, in following those before them."""
 
@@ -47,10 +49,11 @@ class Body:
     options: SolveOptions
     constraints: Sequence[Constraint]
     evaluations: int = 0
+    limits: tuple[Array, Array] | None = None
     anatomy: Anatomy = field(init=False)
     obstacles: Obstacles = field(init=False)
-    _weights: dict[bool, tuple[Array, Array, float, Mapping[int, int]]] = field(
-        init=False, default_factory=dict
+    _weights: dict[bool, tuple[Array, Array, float, Mapping[int, int], Mapping[int, float]]] = (
+        field(init=False, default_factory=dict)
     )
 
     def __post_init__(self) -> None:
@@ -76,7 +79,9 @@ class Body:
         reference[list(self.presets)] = list(self.presets.values())
         return Cost(reference, *self._weights[gazes])
 
-    def _weighed(self, *, gazes: bool) -> tuple[Array, Array, float, Mapping[int, int]]:
+    def _weighed(
+        self, *, gazes: bool
+    ) -> tuple[Array, Array, float, Mapping[int, int], Mapping[int, float]]:
         options, anatomy_ = self.options, self.anatomy
         stiffness = np.array(self.rig.coordinates.stiffness)
         comfort = np.full(len(stiffness), options.comfort)
@@ -93,7 +98,9 @@ class Body:
         keep[preset], comfort[preset] = options.tolerance.angle_rad**-2, 0.0
         loose = {v: leader for v, leader in follows.items() if v not in self.presets}
         comfort[list(loose)] = 0.0
-        return keep, comfort, options.overlap, loose
+        half = EYE_RANGE_RAD / block.COMFORTABLE
+        ranges = dict.fromkeys(anatomy_.of(Part.EYES), half) if gazes else {}
+        return keep, comfort, options.overlap, loose, ranges
 
     def frames(self, q: Array) -> Frames:
         """Frames of one posture, by the kernels: a hundred times faster than `Chain.frames`."""

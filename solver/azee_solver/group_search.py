@@ -41,8 +41,8 @@ Array = NDArray[np.float64]
 
 LEVEL_RAD = math.radians(2.0)
 """How far a head that nothing turns may tilt with the trunk before it costs as much as a miss."""
-GAZING_LEVEL_RAD = math.radians(5.0)
-"""The same for its tilt while the eyes are led."""
+ROLL_RAD = math.radians(2.0)
+"""The same for its roll while the eyes are led."""
 
 BLOCKED_WEIGHT = 2
 """A descent that ends in the body counts as so many more that gain nothing, where a wider problem
@@ -129,7 +129,9 @@ class GroupSearch:
         )
         gazes = any(isinstance(task.constraint, Look | LookAt) for task in tasks.values())
         cost = body.cost(gazes=gazes)
-        self.program = Program(body.rig, q, sorted(free), tape, rows, self.collisions, cost)
+        self.program = Program(
+            body.rig, q, sorted(free), tape, rows, self.collisions, cost, limits=body.limits
+        )
 
     def search(self, candidates: Iterable[Array], further: bool) -> Result:
         """Return the best end of descents: the first that meets all, or when no more is gained.
@@ -290,24 +292,25 @@ class GroupSearch:
         )
 
     def _level_head(self, tape: Tape, free: frozenset[int]) -> list[Row]:
-        """Rows that keep the head as it was while the trunk moves under it."""
+        """Rows that keep the head as it was while the trunk moves under it, and never roll it.
+
+        A gaze turns and pitches the head; by Donders' law it does not roll: the line through the
+        ears stays level.
+        """
         anatomy_, rig = self.body.anatomy, self.body.rig
-        if not free & anatomy_.of(Part.TRUNK) or not free & anatomy_.of(Part.HEAD):
+        gaze = any(isinstance(task.constraint, Look | LookAt) for task in self.tasks.values())
+        if not free & anatomy_.of(Part.HEAD) or not (gaze or free & anatomy_.of(Part.TRUNK)):
             return []
         binding = self.body.evaluator.binding
         if Part.HEAD in {part_constrained(t.constraint, binding) for t in self.tasks.values()}:
             return []
         node = rig.bones["head"].node
+        axes = [tape.node_vector(node, np.eye(3)[k]) for k in range(3)]
+        if gaze:
+            up = tape.constant(np.array([0.0, 1.0, 0.0]))
+            return [Row(block.PERPENDICULAR, axes[0], up, ROLL_RAD**-2)]
         level = self.body.frames(self.body.reference).rotations[node]
-        gaze = any(isinstance(task.constraint, Look | LookAt) for task in self.tasks.values())
-        columns = (1,) if gaze else (0, 1, 2)
-        weight = GAZING_LEVEL_RAD**-2 if gaze else 0.5 * LEVEL_RAD**-2
+        weight = 0.5 * LEVEL_RAD**-2
         return [
-            Row(
-                block.MEET,
-                tape.node_vector(node, np.eye(3)[k]),
-                tape.constant(level[:, k]),
-                weight,
-            )
-            for k in columns
+            Row(block.MEET, axis, tape.constant(level[:, k]), weight) for k, axis in enumerate(axes)
         ]

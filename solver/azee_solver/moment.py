@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver.body import Body
-from azee_solver.constraint import Constraint
+from azee_solver.constraint import Constraint, Orient
 from azee_solver.evaluate import evaluator
 from azee_solver.footprint import Footprint
 from azee_solver.geometry import Side
@@ -75,6 +76,10 @@ class Moment:
         """Return the tasks of a group by their index."""
         indices = sorted(i for p in group.problems for i in self.problems[p].tasks)
         return {i: self.tasks[i] for i in indices}
+
+    def precedence(self, i: int) -> tuple[bool, Fraction, int, int]:
+        """Order of tasks from the one that is kept longest: orientations after all others."""
+        return isinstance(self.constraints[i], Orient), *self.tasks[i].order
 
     def is_widest(self, group: Group) -> bool:
         """Whether nothing more can be given to a group to move."""

@@ -41,6 +41,8 @@ class SolveOptions:
     """Descents in a row that gain nothing and end a search."""
     explain: bool = True
     """Whether to find out why a constraint is missed, by solving smaller problems."""
+    precise: bool = True
+    """Whether to meet constraints at any price of comfort. Movements of azee do not by default."""
     fixed: frozenset[int] = frozenset()
     """Coordinates that must not move from the start."""
     inertia: float = 0.0

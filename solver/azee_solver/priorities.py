@@ -8,7 +8,7 @@ lowered until the others are met.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from azee_solver.result import Result
 Array = NDArray[np.float64]
 Again = Callable[[Mapping[int, float], Array], Result]
 """Solves once more: factors of the tasks' weights, and the posture (V,) to begin with."""
-Order = Callable[[int], tuple[Fraction, int, int]]
+Order = Callable[[int], tuple[Any, ...]]
 
 GIVEN_UP_PULL = 0.1
 """How steeply the cost of a constraint that is given up falls with its residual: a tenth

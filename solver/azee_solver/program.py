@@ -56,7 +56,8 @@ class Row:
 class Cost:
     """What a posture costs, per coordinate of the rig: (V,) each; see the formula in `kernels`.
 
-    follows: coordinates, and the one that each follows instead of its reference.
+    follows: coordinates, and the one that each follows instead of its reference. half_ranges: of
+    coordinates whose joint-limit cost starts before their limits come near.
     """
 
     reference: Array
@@ -64,6 +65,7 @@ class Cost:
     comfort: Array
     overlap: float
     follows: Mapping[int, int] = field(default_factory=dict)
+    half_ranges: Mapping[int, float] = field(default_factory=dict)
 
 
 class Program:
@@ -84,12 +86,14 @@ class Program:
         collisions: Collisions,
         cost: Cost,
         *,
+        limits: tuple[Array, Array] | None = None,
         all_frames: bool = False,
     ) -> None:
         """Lay the problem out.
 
-        Args: q: (V,) posture of all that stays. tape: made for that posture. all_frames: work out
-            the frames of all moving nodes, not only of those that the objective reads.
+        Args: q: (V,) posture of all that stays. tape: made for that posture. limits: (V,) each,
+            narrower than the body's. all_frames: work out the frames of all moving nodes, not only
+            of those that the objective reads.
         """
         self.rows, codes, numbers = _used(tape, rows)
         self.tape_numbers: Array = np.array(numbers).reshape(-1, 5)
@@ -114,6 +118,11 @@ class Program:
         posture[self.layout.followed, 0] = k.FOLLOWING * q[self.layout.leaders]
         posture[:, 1] = cost.keep[self.free]
         posture[:, 4] = cost.comfort[self.free]
+        for n, v in enumerate(self.free.tolist() if cost.half_ranges else ()):
+            posture[n, 3] = cost.half_ranges.get(v, posture[n, 3])
+        if limits is not None:
+            self.lower, self.upper = (limit[self.free] for limit in limits)
+            self.section(k.BOUNDS)[:] = np.concatenate([self.lower, self.upper])
         self.section(k.Q)[:] = q
         self.section(k.NUMBERS)[:] = numbers
         self.section(k.ROW_NUMBERS)[:] = [x for r in self.rows for x in (r.weight, r.distance_m)]

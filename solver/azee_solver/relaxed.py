@@ -86,9 +86,7 @@ class RelaxedProblem:
 
         result = again({}, solution.q)
         if result.worst() > NEAR_MISS and result.repeats >= AGREEING_ENDS:
-            factors, result = give_up_later_tasks(
-                result, {}, again, lambda i: moment.tasks[i].order
-            )
+            factors, result = give_up_later_tasks(result, {}, again, moment.precedence)
             self.given_up |= factors
         elif not result.unmet():
             self.postures.append(result.q)

@@ -13,10 +13,13 @@ from azee_solver.anatomy import Part
 from azee_solver.body import Body
 from azee_solver.constraint import Morph, Transpath, Trill
 from azee_solver.moment import Moment
+from azee_solver.notation import constraint_text
+from azee_solver.outcome import Price, Strain
 from azee_solver.reasons import Diagnosis
 from azee_solver.solution import Solution
 from azee_solver.solve_report import ConstraintReport, ProblemReport, SolveReport
 from azee_solver.task import Task
+from azee_solver.tolerance import PAPER
 
 Array = NDArray[np.float64]
 
@@ -34,7 +37,8 @@ def report(
     undefined = frozenset().union(*(r.undefined for r in solution.results))
     free = frozenset().union(*(group.free for group in solution.groups))
     diagnosis = Diagnosis(body, moment.tasks, moment.footprints, q, free)
-    constraints = tuple(_constraints(body, moment.tasks, q, diagnosis, undefined))
+    prices = {i: price for result in solution.results for i, price in result.eased.items()}
+    constraints = tuple(_constraints(body, moment.tasks, q, diagnosis, undefined, prices))
     q.setflags(write=False)
     explain_s = diagnosis.spent_s
     return SolveReport(
@@ -46,6 +50,7 @@ def report(
         time.perf_counter() - began - explain_s,
         free | frozenset(body.presets) - body.options.fixed,
         explain_s,
+        tuple(_strains(moment, solution)),
     )
 
 
@@ -55,8 +60,12 @@ def _constraints(
     q: Array,
     diagnosis: Diagnosis,
     undefined: frozenset[int],
+    prices: Mapping[int, Price],
 ) -> Iterator[ConstraintReport]:
-    """Yield what became of each constraint that joints can meet."""
+    """Yield what became of each constraint that joints can meet.
+
+    Args: prices: what it would have cost to meet tasks that comfort has not met.
+    """
     measure, asked = body.evaluator, [task.constraint for task in tasks]
     frames = kinematics.frames(body.rig.chain, q)
     for i, task in enumerate(tasks):
@@ -67,14 +76,24 @@ def _constraints(
             continue
         residual, unit = measure.residual(constraint, frames, q, task.phase, asked)
         tolerance = body.options.tolerance.of(constraint)
-        met = bool(residual <= tolerance)
+        met, price = bool(residual <= tolerance), prices.get(i)
         why = None
-        if not met:
+        if price and residual > PAPER.of(constraint):
+            why = f"given up for comfort: it would take {price}"
+        elif not met and not price:
             explain = body.options.explain
             why = "not looked into"
             if explain:
                 why = diagnosis.reason(i, float(residual) / tolerance, i in undefined)
-        yield ConstraintReport(task, float(residual), unit, tolerance, met, why)
+        yield ConstraintReport(task, float(residual), unit, tolerance, met, why, price)
+
+
+def _strains(moment: Moment, solution: Solution) -> Iterator[Strain]:
+    """Yield what is beyond the comfortable, and for whose sake."""
+    for result in solution.results:
+        if result.strain:
+            subjects = (constraint_text(moment.constraints[i]) for i in sorted(result.strained_for))
+            yield Strain(result.strain, tuple(subjects))
 
 
 def _problems(

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver.options import SolveOptions
+from azee_solver.outcome import FREE, Price
 
 Array = NDArray[np.float64]
 
@@ -23,7 +24,9 @@ class Result:
     q: (V,) radians. ratios: residual per task, in tolerances. cost: sum of their squares.
     overlap_m: deepest overlap of two capsules. undefined: tasks whose target has no direction.
     given_up: tasks whose weight was lowered in favour of others; they are not in the cost.
-    repeats: how many other descents ended there too.
+    repeats: how many other descents ended there too. eased: what it would have cost to meet tasks
+    that comfort has not met. strain: what the posture costs. strained_for: the tasks for
+    whose sake.
     """
 
     q: Array
@@ -33,6 +36,9 @@ class Result:
     undefined: frozenset[int]
     given_up: frozenset[int] = frozenset()
     repeats: int = 0
+    eased: Mapping[int, Price] = field(default_factory=dict)
+    strain: Price = FREE
+    strained_for: frozenset[int] = frozenset()
 
     def missed(self) -> frozenset[int]:
         """Tasks that are not met."""

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from azee_solver.comfort import eased
 from azee_solver.group_search import solve_group
 from azee_solver.groups import Group, grouped
 from azee_solver.moment import Moment
@@ -31,7 +32,12 @@ class GroupSequence:
         self.spent_s: dict[tuple[int, ...], float] = {}
 
     def solve(
-        self, reach: Sequence[Reach], before: Solution | None = None, *, give_up: bool = False
+        self,
+        reach: Sequence[Reach],
+        before: Solution | None = None,
+        *,
+        give_up: bool = False,
+        ease: bool = False,
     ) -> Solution:
         """Return the posture in which all groups end.
 
@@ -51,6 +57,8 @@ class GroupSequence:
                 result = self._searched(group, q, unsettled, before)
             if give_up:
                 result = self._without_later_tasks(group, q, unsettled, result)
+            if ease:
+                result = eased(moment, group, q, unsettled, result)
             q = q.copy()
             q[sorted(group.free)] = result.q[sorted(group.free)]
             results.append(result)
@@ -107,9 +115,7 @@ class GroupSequence:
             )
 
         given_up = self._given_up(group)
-        factors, found = give_up_later_tasks(
-            result, given_up, again, lambda i: self.moment.tasks[i].order
-        )
+        factors, found = give_up_later_tasks(result, given_up, again, self.moment.precedence)
         if found.unmet() or factors != given_up:
             found = again(factors, found.q, finish=True)
         return found

@@ -16,6 +16,7 @@ from azee_solver.relaxed import RelaxedProblem
 from azee_solver.reporting import report
 from azee_solver.sequence import GroupSequence
 from azee_solver.solve_report import SolveReport
+from azee_solver.symmetry import symmetric
 from azee_solver.task import Task
 from azee_solver.widening import least_reach, widened
 
@@ -53,4 +54,7 @@ def solve(
         solution = groups.solve(reach, solution)  # 4, 5
     if solution.missed():
         solution = groups.solve(solution.reach, solution, give_up=True)  # 8
-    return report(moment, solution, groups.spent_s, began)  # 9
+    solution = symmetric(moment, solution)  # 9
+    if not moment.options.precise:
+        solution = groups.solve(solution.reach, solution, ease=True)  # 10
+    return report(moment, solution, groups.spent_s, began)  # 11

@@ -11,6 +11,7 @@ from azee_solver.collisions import Overlap
 from azee_solver.constraint import Constraint
 from azee_solver.evaluate import LengthOrAngle
 from azee_solver.notation import problem_text, subject_text, target_text
+from azee_solver.outcome import Outcome, Price, Strain
 from azee_solver.task import Task
 
 
@@ -48,8 +49,9 @@ class ProblemReport:
 class ConstraintReport:
     """A constraint, measured on the final posture by forward kinematics outside the kernels.
 
-    residual and tolerance in `unit`; NaN where the target has no direction. reason: why it is not
-    met, else none.
+    residual and tolerance in `unit`; NaN where the target has no direction. reason: why it is
+    missed, else none. price: what meeting it would have cost, if comfort has eased it or given it
+    up.
     """
 
     task: Task
@@ -58,6 +60,19 @@ class ConstraintReport:
     tolerance: float
     met: bool
     reason: str | None
+    price: Price | None = None
+
+    @property
+    def missed(self) -> bool:
+        """Whether it is neither met nor eased."""
+        return self.outcome is Outcome.MISSED
+
+    @property
+    def outcome(self) -> Outcome:
+        """What became of it."""
+        if self.met:
+            return Outcome.MET
+        return Outcome.MISSED if self.reason is not None else Outcome.EASED
 
     @property
     def kind(self) -> str:
@@ -78,7 +93,8 @@ class SolveReport:
     constraints: those that joints can meet, in the order of the tasks. penetration: capsules
     that overlap beyond meant contacts, deepest first. reached: coordinates that the constraints
     may move. solve_s, explain_s: wall-clock time of finding the posture, and of finding out why
-    some constraints miss; no other than times differs from run to run.
+    some constraints miss; no other than times differs from run to run. strains: where the posture
+    is beyond the comfortable.
     """
 
     coordinates: NDArray[np.float64]
@@ -89,8 +105,14 @@ class SolveReport:
     solve_s: float
     reached: frozenset[int]
     explain_s: float = 0.0
+    strains: tuple[Strain, ...] = ()
 
     @property
     def met(self) -> bool:
         """Whether every constraint is met."""
         return all(constraint.met for constraint in self.constraints)
+
+    @property
+    def missed(self) -> bool:
+        """Whether a constraint is missed: neither met nor eased."""
+        return any(constraint.missed for constraint in self.constraints)

@@ -55,7 +55,10 @@ def test_every_format_from_one_solution(
     monkeypatch.setattr(motion, "animate", counted)
     outputs = [f"touch{suffix}" for suffix in SUFFIXES]
     arguments = [word for output in outputs for word in ("-o", output)]
-    assert run(["compile", "touch.azee", *arguments, "--report", "touch.report.json"]) == 0
+    assert (
+        run(["compile", "touch.azee", "--precise", *arguments, "--report", "touch.report.json"])
+        == 0
+    )
     assert len(calls) == 1
     captured = capsys.readouterr()
     assert captured.out == ""
@@ -68,8 +71,8 @@ def test_every_format_from_one_solution(
 
 
 def test_the_body_does_what_the_text_says() -> None:
-    assert run(["compile", "touch.azee", "-o", "touch.json", "--quiet"]) == 0
-    made = azee.compile(Path("touch.azee"))
+    assert run(["compile", "touch.azee", "--precise", "-o", "touch.json", "--quiet"]) == 0
+    made = azee.compile(Path("touch.azee"), precise=True)
     assert made.report.met
     rig, clip = made.rig, made.clip
     middle = np.abs(clip.times - (made.report.lead_s + 0.25)).argmin()

@@ -31,7 +31,7 @@ def score(shaking: bool) -> Group:
 
 @cache
 def played(mode: Mode, *, shaking: bool = True) -> Animation:
-    return animate(score(shaking), load_rig(), mode=mode, timing="exact", life=False)
+    return animate(score(shaking), load_rig(), mode=mode, timing="exact", life=False, precise=True)
 
 
 def moved_by_the_shake(mode: Mode) -> dict[str, float]:

@@ -37,6 +37,7 @@ from azee.motion.tasks.timed_task import (
 from azee.score.interval import Interval
 from azee_solver.binding import Binding
 from azee_solver.constraint import Constraint
+from azee_solver.outcome import Outcome
 
 LOOK_AHEAD_S = Fraction(3, 20)
 """Head and trunk take the posture of what begins within this time."""
@@ -61,6 +62,16 @@ class Boundaries:
         """Constraints that some of the postures do not meet."""
         answers = (c for p in self.postures for c in p.report.constraints)
         return frozenset(c.task.constraint for c in answers if not c.met)
+
+    @property
+    def eased(self) -> dict[Constraint, float]:
+        """Constraints that some of the postures ease for comfort, and by how much at most."""
+        out: dict[Constraint, float] = {}
+        for answer in (c for p in self.postures for c in p.report.constraints):
+            if answer.outcome is Outcome.EASED:
+                constraint = answer.task.constraint
+                out[constraint] = max(answer.residual, out.get(constraint, 0.0))
+        return out
 
 
 def solve_boundaries(

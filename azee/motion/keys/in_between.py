@@ -7,8 +7,8 @@ a head shakes, and an arm reaches its path from the trunk as it finds it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from azee.motion.curves.movement import Movement
@@ -25,18 +25,22 @@ from azee_solver.task import Task
 MET_SHARE = 0.9
 """A task whose residual is below this share of its tolerance needs no correction."""
 
+ROUNDING = 1e-9
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InBetweenSolver:
     """Solves key postures at instants of a movement.
 
-    infeasible: constraints that a key posture at a boundary could not meet.
+    infeasible: constraints that a key posture at a boundary could not meet. eased: those that one
+    has eased for comfort, and by how much: no more is asked of them between the boundaries.
     """
 
     monitor: ResidualMonitor
     selection: KeySelection
     solver: PostureSolver
     infeasible: frozenset[Constraint] = frozenset()
+    eased: Mapping[Constraint, float] = field(default_factory=dict)
 
     def solve_at(
         self,
@@ -97,14 +101,14 @@ class InBetweenSolver:
             fixed = self._all_but(free)
             report = self.solver(ik_tasks, start=q, reference=q, search=Search.LOCAL, fixed=fixed)
             undisturbed = _undisturbed(tasks, off, free)
-            if all(c.met or c.task.rank in undisturbed for c in report.constraints):
+            if all(not c.missed or c.task.rank in undisturbed for c in report.constraints):
                 return report
         assert report is not None
         unmet = {c.task.constraint for c in report.constraints if not c.met}
         if unmet <= self.infeasible:
             return report
         searched = self.solver(ik_tasks, start=q, reference=q, fixed=fixed)
-        left, fewer = (sum(not c.met for c in r.constraints) for r in (report, searched))
+        left, fewer = (sum(c.missed for c in r.constraints) for r in (report, searched))
         return searched if fewer < left else report
 
     def _widening(
@@ -128,7 +132,8 @@ class InBetweenSolver:
 
     def _is_off(self, task: TimedTask, now: MovementSamples) -> bool:
         residual = float(self.monitor.residual(task, now)[0])
-        return not residual <= self.monitor.tolerance(task) * MET_SHARE
+        tolerance = self.monitor.tolerance(task) * MET_SHARE
+        return not residual <= max(tolerance, self.eased.get(task.constraint, 0.0) + ROUNDING)
 
     def _all_but(self, free: frozenset[str]) -> frozenset[int]:
         """Return the coordinates of all other limbs."""

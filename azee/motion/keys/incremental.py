@@ -66,7 +66,7 @@ def solve_incrementally(
             reference=reference,
             fixed=frozenset(np.flatnonzero(~moving).tolist()),
         )
-        if report.met:
+        if not report.missed:
             old_answers = [replace(unmet[t.constraint], task=t) for t in left_out]
             whole = replace(report, constraints=(*report.constraints, *old_answers))
             return (*solved, *left_out), whole

@@ -79,7 +79,7 @@ def plan(
         evaluator.rig, limbs, in_use, rest, hands_together=not selection.flat
     )
     monitor = ResidualMonitor(evaluator, schedule, {}, boundaries.early_ends)
-    in_between = InBetweenSolver(monitor, selection, solver, boundaries.unmet)
+    in_between = InBetweenSolver(monitor, selection, solver, boundaries.unmet, boundaries.eased)
     keys = PathKeys(motions, [*boundaries.postures], in_between, interpolation, frame_times)
     joined = keys.join_boundaries()
 

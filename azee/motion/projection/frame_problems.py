@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from azee.motion.keys.residual_monitor import ResidualMonitor
 from azee.motion.keys.transpath import AnchoredPath
+from azee.motion.tasks.limbs import TRUNK, limb_of_coordinate
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
 from azee_solver.anatomy import anatomy
@@ -35,6 +36,8 @@ Mask = NDArray[np.bool_]
 
 TOUCH_S = 0.15
 """Bodies may be as near as a touch brings them this long before and after it."""
+TRUNK_SHARE = 50.0
+"""How many times more the trunk costs than in a posture: key postures have chosen its place."""
 PRESET_PLAY_RAD = math.radians(0.4)
 """How far fingers may be from the angles of their handshape, inside the tolerance."""
 _SOMEWHERE = np.array([0.123456, 1.0, 0.5])
@@ -61,6 +64,8 @@ class FrameProblems:
         """
         coordinates = self.monitor.evaluator.rig.coordinates
         free_keep = self.options.posture * np.array(coordinates.stiffness) ** 2
+        trunk = [limb_of_coordinate(name) == TRUNK for name in coordinates.names]
+        free_keep[trunk] *= TRUNK_SHARE
         keep = np.tile(free_keep, (len(times), 1))
         keep[accented] = self.options.tolerance.angle_rad**-2
         fixed = np.zeros(keep.shape, dtype=np.bool_)

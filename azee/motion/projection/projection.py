@@ -34,7 +34,7 @@ class Reference:
     accented: NDArray[np.bool_]
 
 
-LEAD = 0.025
+LEAD = 0.012
 """Share of its time by which a site on its path is early or late at most, in the middle."""
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 """Multiples of it, taken modulo 1, are far from each other if they follow each other."""
@@ -70,19 +70,22 @@ def project(planned: Plan, reference: Reference, fps: float) -> Array:
     return problem.solve(fps)
 
 
-def _weights_of_unmet(planned: Plan) -> dict[Constraint, float]:
-    """Return factors of the weights of constraints that some key posture does not meet.
+GIVEN_UP_COST = 0.4
+"""What a constraint costs at the residual that a key posture leaves it, in tolerances squared."""
 
-    Such a constraint costs as much where it is missed as there as others where they are missed by
-    their tolerance: it goes on drawing, but not at the cost of what can be met.
+
+def _weights_of_unmet(planned: Plan) -> dict[Constraint, float]:
+    """Return factors of the weights of constraints that some key posture misses or eases.
+
+    They go on drawing, but neither at the cost of what is met nor of the posture's comfort.
     """
     out: dict[Constraint, float] = {}
     for posture in planned.postures:
         for answer in posture.report.constraints:
             if not answer.met:
-                share = (answer.tolerance / max(answer.residual, answer.tolerance)) ** 2
+                ratio = max(answer.residual / answer.tolerance, 1.0)
                 constraint = answer.task.constraint
-                out[constraint] = min(share, out.get(constraint, 1.0))
+                out[constraint] = min(GIVEN_UP_COST / ratio**2, out.get(constraint, 1.0))
     return out
 
 

@@ -94,10 +94,10 @@ class KeyPosture:
 
     @property
     def met(self) -> bool:
-        """Whether every task is within its tolerance."""
+        """Whether every task is met or eased."""
         return self.unmet_count == 0
 
     @property
     def unmet_count(self) -> int:
-        """How many tasks are out of tolerance."""
-        return sum(not c.met for c in self.report.constraints)
+        """How many tasks are missed."""
+        return sum(c.missed for c in self.report.constraints)

@@ -86,7 +86,7 @@ def wall_with_shadow(*boxes: tuple[float, float, float, float, float]) -> NDArra
         places[4 * n : 4 * n + 4] *= (width, length, 1.0)
         places[4 * n : 4 * n + 4] += (x, y, 0.0)
     far = Camera(np.array([0.0, 0.0, 40.0]), np.zeros(3), 2.0 * np.arctan(0.5 / 40.0))
-    return pixels(render(places, mesh, far, (400, 400))).astype(int).sum(axis=2)
+    return np.asarray(pixels(render(places, mesh, far, (400, 400))).astype(int).sum(axis=2))
 
 
 def test_a_shadow_is_sharp_where_things_touch_and_dissolves_with_distance() -> None:

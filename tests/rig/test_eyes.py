@@ -16,7 +16,7 @@ SIZE = (520, 240)
 
 
 def _seen(rig: Rig, morphs: Mapping[str, float], yaw: float, pitch: float) -> NDArray[np.bool_]:
-    """Pixels (H, W) of eyeballs in a picture of both eyes."""
+    """Pixels (H, W) of eyeballs in a picture of both eyes, without the hairs before them."""
     q = np.array(rig.coordinates.idle)
     for side in "LR":
         q[rig.coordinates.index[f"eye_{side}.yaw"]] = np.radians(yaw)
@@ -29,7 +29,10 @@ def _seen(rig: Rig, morphs: Mapping[str, float], yaw: float, pitch: float) -> ND
     view = from_direction(eyes.mean(axis=0), np.array([0.0, 0.03, 1.0]), 0.028)
     screen = projected(rig.skin(rig.pose(q), units), view, *SIZE)[0]
     depth, seen = np.full(SIZE[::-1], 1e30), np.full(SIZE[::-1], -1, dtype=np.int32)
-    fill(np.ascontiguousarray(screen), np.array(rig.mesh.triangles), depth, seen)
+    triangles = np.array(rig.mesh.triangles)
+    (lashes,) = (p for p in rig.mesh.parts if p.name == "lashes")
+    triangles[lashes.start : lashes.stop] = 0
+    fill(np.ascontiguousarray(screen), triangles, depth, seen)
     (part,) = (p for p in rig.mesh.parts if p.name == "eyes")
     return np.asarray((seen >= part.start) & (seen < part.stop))
 

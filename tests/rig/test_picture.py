@@ -77,6 +77,50 @@ def test_a_shadow_falls_on_what_is_behind() -> None:
     assert lit[46, 60] > 0.95 * lit[46, 80]
 
 
+def wall_with_shadow(*boxes: tuple[float, float, float, float, float]) -> NDArray[np.int64]:
+    """Brightness of a wall of 1 m and 400 pixels, behind plates: x, y, height, width, length."""
+    grey = (0.5, 0.5, 0.5)
+    mesh = squares((0.0, grey), *((height, grey) for _, _, height, _, _ in boxes))
+    places = np.array(mesh.vertices)
+    for n, (x, y, _, width, length) in enumerate(boxes, 1):
+        places[4 * n : 4 * n + 4] *= (width, length, 1.0)
+        places[4 * n : 4 * n + 4] += (x, y, 0.0)
+    far = Camera(np.array([0.0, 0.0, 40.0]), np.zeros(3), 2.0 * np.arctan(0.5 / 40.0))
+    return np.asarray(pixels(render(places, mesh, far, (400, 400))).astype(int).sum(axis=2))
+
+
+def test_a_shadow_is_sharp_where_things_touch_and_dissolves_with_distance() -> None:
+    def soft_rows(height: float) -> int:
+        below = wall_with_shadow((0.0, 0.0, height, 0.3, 0.3))[262:330, 190]
+        assert (np.diff(below) >= 0).all(), "it fades out evenly"
+        dark, light = below.min(), below[-1]
+        assert dark < 0.75 * light
+        return int(((below > dark + 0.1 * (light - dark)) & (below < light - 4)).sum())
+
+    near, far = soft_rows(0.04), soft_rows(0.16)
+    assert near <= 16
+    assert far > 2.5 * near
+
+
+def test_the_shadow_of_a_hand_before_the_belly_has_no_fingers() -> None:
+    fingers = [(0.028 * n, 0.0, 0.15, 0.015, 0.08) for n in range(4)]
+    shadow = wall_with_shadow(*fingers)
+    y = 200 + int(400 * 0.15 * 0.72 / 0.95)
+    x = 200 - int(400 * 0.15 * 0.28 / 0.95)
+    across = shadow[y, x - 30 : x + 60]
+    assert across.min() < 0.92 * shadow[y, 380], "there is a shadow"
+    falls = np.sign(np.diff(across))
+    assert np.count_nonzero(np.diff(falls[falls != 0])) == 1, "it is one dark place"
+
+
+def test_a_surface_does_not_shade_itself() -> None:
+    tilted = squares((0.0, (0.5, 0.5, 0.5)))
+    places = tilted.vertices @ np.array([[1.0, 0, 0], [0, 0.8, 0.6], [0, -0.6, 0.8]])
+    for sign in (1.0, -1.0):
+        image = pixels(render(places * (1.0, 1.0, sign), tilted, EYE, (90, 90)))[30:60, 30:60]
+        assert np.ptp(image.astype(int), axis=(0, 1)).max() <= 12, "no stripes"
+
+
 def test_the_same_input_gives_the_same_bytes(signer: Rig) -> None:
     idle = signer.coordinates.idle
     one, two = (picture(signer, idle, "face", {"jawOpen": 0.5}, (80, 90)) for _ in range(2))

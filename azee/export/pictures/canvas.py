@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.export.pictures.camera import Camera, projected
-from azee.export.pictures.raster import fill, shade
+from azee.export.pictures.raster import coarsen, fill, shade
 from azee_rig.mesh import BodyMesh, vertex_normals
 
 Floats = NDArray[np.float64]
@@ -26,6 +26,8 @@ BACKGROUND = (0.72, 0.76, 0.80), (0.90, 0.92, 0.94)
 SAMPLES = 2
 """Samples per pixel, each way."""
 SHADOW_SAMPLES = 1024
+SHADOW_TILES = np.array([2, 4, 8, 16, 32])
+"""Sides, in samples, of tiles in which depths of the shadow buffer are summed up."""
 SHADOW_MARGIN_M = 0.25
 """How far outside of the picture something may be and still throw a shadow into it."""
 _FAR = 1e30
@@ -48,6 +50,9 @@ class Canvas:
         self.depth = np.empty((height, width))
         self.seen = np.empty((height, width), dtype=np.int32)
         self.shadow = np.empty((SHADOW_SAMPLES, SHADOW_SAMPLES))
+        counts = SHADOW_SAMPLES // SHADOW_TILES
+        self.tile_rows = np.cumsum(counts) - counts
+        self.tiles = np.empty((counts.sum(), counts[0], 3), dtype=np.float32)
         self.shadow_seen = np.empty(self.shadow.shape, dtype=np.int32)
         top, bottom = (np.array(c) ** 2.2 for c in BACKGROUND)
         self.background = top + np.linspace(0.0, 1.0, size[1])[:, None] * (bottom - top)
@@ -73,6 +78,8 @@ class Canvas:
         self.shadow_seen.fill(-1)
         lit = np.ascontiguousarray(places @ shadow_from[:3].T + shadow_from[3])
         fill(lit, self.triangles, self.shadow, self.shadow_seen)
+        texel_m = 2.0 * reach_m / SHADOW_SAMPLES
+        coarsen(self.shadow, self.tiles, self.tile_rows)
 
         out = np.empty((self.size[1], self.size[0], 4 if transparent else 3), dtype=np.uint8)
         shade(
@@ -90,8 +97,9 @@ class Canvas:
             SUN,
             LIGHTS,
             shadow_from,
-            self.shadow,
-            2.0 * reach_m / SHADOW_SAMPLES,
+            self.tiles,
+            self.tile_rows,
+            texel_m,
             self.samples,
             self.background,
             self.curve,

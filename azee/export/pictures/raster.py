@@ -2,8 +2,8 @@
 
 Two passes use a z-buffer. `fill` finds the nearest triangle of every sample. `shade` lights only
 visible triangles, a pixel at a time: once for each triangle in the pixel, weighted by its samples.
-A second z-buffer, filled from the place of the key light, gives its shadow. The first z-buffer
-darkens creases.
+A second z-buffer, filled from the place of the key light, gives its soft shadow; `coarsen` sums it
+up in tiles. The first z-buffer darkens creases.
 
 Numba compiles the kernels once and caches them on disk. There is no fast-math and no thread inside,
 so that the same input gives the same picture. The kernels release Python's lock, so that frames of
@@ -24,6 +24,14 @@ Ints = NDArray[np.int64]
 _FAR = 1e30
 _RING = np.array([[1.0, 0.0], [0.7071, 0.7071], [0.0, 1.0], [-0.7071, 0.7071]])
 """Directions in which creases are searched, each with its opposite."""
+
+LIGHT_RADIUS = 0.25
+"""Radius of the key light, as seen from the body: of a disc at distance 1."""
+_STEEPEST = 3.0
+_SAME_M = 0.004
+"""Places in a pixel that are nearer to each other than this share an answer about the light."""
+_DISC_TILES = 1.15
+"""Radius, in tiles, of the disc that is as wide as the weights of `_bump` over tiles."""
 
 _fill_types = "void(f8[:,::1], i8[:,::1], f8[:,::1], i4[:,::1])"
 
@@ -71,23 +79,105 @@ def fill(screen: Any, triangles: Any, depth: Any, seen: Any) -> None:
                         seen[y, x] = t
 
 
-@njit("f8(f8[::1], f8[::1], f8[:,::1], f8[:,::1], i8, f8)", cache=True, nogil=True)
-def _lit(p: Any, n: Any, shadow_from: Any, shadow: Any, size: Any, texel_m: Any) -> Any:
-    """Return the share of the key light at a place, by nine samples of the shadow buffer."""
-    s = np.empty(3)
-    for r in range(3):
-        s[r] = shadow_from[3, r]
-        for k in range(3):
-            s[r] += shadow_from[r, k] * (p[k] + 3.0 * texel_m * n[k])
-    free = 0.0
-    for i in range(3):
-        for j in range(3):
-            x = int(np.floor(s[0] + 1.6 * (i - 1)))
-            y = int(np.floor(s[1] + 1.6 * (j - 1)))
-            outside = x < 0 or y < 0 or x >= size or y >= size
-            if outside or shadow[y, x] > s[2] - 2.0 * texel_m:
-                free += 1.0
-    return free / 9.0
+@njit("void(f8[:,::1], f4[:,:,::1], i8[::1])", cache=True, nogil=True)
+def coarsen(depth: Any, tiles: Any, rows: Any) -> None:
+    """Fill in least, mean and greatest depth of square tiles of 2, 4, 8 … samples a side.
+
+    Two surfaces in a tile, as at the edge of a hand, have their shares told by the three numbers.
+
+    Args: depth: (S, S) as of `fill`. tiles: (·, S / 2, 3) gets one size below the other. rows: (n,)
+    the first row of each size; S is a multiple of the greatest.
+    """
+    size = depth.shape[0]
+    empty = -_FAR
+    for y in range(size):
+        for x in range(size):
+            if depth[y, x] < _FAR:
+                empty = max(empty, depth[y, x] + 1.0)
+    for n in range(rows.shape[0]):
+        for y in range(size >> (n + 1)):
+            for x in range(size >> (n + 1)):
+                least, total, most = np.float32(_FAR), np.float32(0.0), np.float32(-_FAR)
+                for v in range(2 * y, 2 * y + 2):
+                    for u in range(2 * x, 2 * x + 2):
+                        if n == 0:
+                            a = b = c = np.float32(min(depth[v, u], empty))
+                        else:
+                            tile = tiles[rows[n - 1] + v, u]
+                            a, b, c = tile[0], tile[1], tile[2]
+                        least, total, most = min(least, a), total + b, max(most, c)
+                tiles[rows[n] + y, x, 0] = least
+                tiles[rows[n] + y, x, 1] = total / 4
+                tiles[rows[n] + y, x, 2] = most
+
+
+@njit("f8(i8, f8)", cache=True, nogil=True)
+def _bump(tile: Any, at: Any) -> Any:
+    """Return the quadratic B-spline's weight of the tile before (−1), around (0) or after (1)."""
+    if tile == 0:
+        return 0.75 - (at - 0.5) ** 2
+    return 0.5 * (1.0 - at) ** 2 if tile < 0 else 0.5 * at**2
+
+
+_lit_types = "f8(f8[::1], f8[::1], f8, f8[:,::1], f4[:,:,::1], i8[::1], f8)"
+
+
+@njit(_lit_types, cache=True, nogil=True)
+def _lit(p: Any, n: Any, direct: Any, shadow_from: Any, tiles: Any, rows: Any, texel_m: Any) -> Any:
+    """Return the share of the key light, a disc, that a place sees.
+
+    What stands between at a height h hides as much of the light as it covers of a disc of radius
+    LIGHT_RADIUS h around the place. So shadows are sharp where things touch and dissolve with their
+    distance: that of a hand before the belly is no second hand. Each size of tiles takes what is at
+    its heights, with weights that change smoothly with place and height, so that neither noise nor
+    steps show. Shares at different heights add up. Depths are compared with the tangent plane, so
+    that a surface does not shade itself.
+
+    Args: p, n: (3,) place and unit normal; direct: cosine between n and the light, positive.
+    shadow_from, tiles, rows, texel_m: as of `shade`.
+    """
+    size = 2 * tiles.shape[1]
+    x_at, y_at, depth = shadow_from[3, 0], shadow_from[3, 1], shadow_from[3, 2]
+    along, across = 0.0, 0.0
+    for k in range(3):
+        raised = p[k] + 3.0 * texel_m * n[k]
+        x_at += shadow_from[0, k] * raised
+        y_at += shadow_from[1, k] * raised
+        depth += shadow_from[2, k] * raised
+        along += shadow_from[0, k] * n[k]
+        across += shadow_from[1, k] * n[k]
+    if x_at < 0.0 or y_at < 0.0 or x_at >= size or y_at >= size:
+        return 1.0
+    x_slope = texel_m * min(max(along * texel_m / direct, -_STEEPEST), _STEEPEST)
+    y_slope = texel_m * min(max(across * texel_m / direct, -_STEEPEST), _STEEPEST)
+    steepness = np.sqrt(x_slope**2 + y_slope**2)
+    covered = 0.0
+    last = rows.shape[0] - 1
+    for level in range(last + 1):
+        side = 2 << level
+        first, count = rows[level], size >> (level + 1)
+        usual = side * texel_m * _DISC_TILES / LIGHT_RADIUS
+        lowest = 0.0 if level == 0 else 0.5 * usual
+        x0, y0 = int(x_at) >> (level + 1), int(y_at) >> (level + 1)
+        u, v = x_at / side - x0, y_at / side - y0
+        near = depth - 2.0 * texel_m - 0.7 * steepness * (side - 1)
+        for y in range(max(0, y0 - 1), min(count, y0 + 2)):
+            row = near + y_slope * ((y + 0.5) * side - y_at)
+            for x in range(max(0, x0 - 1), min(count, x0 + 2)):
+                here = row + x_slope * ((x + 0.5) * side - x_at)
+                least = tiles[first + y, x, 0]
+                if least >= here - lowest:
+                    continue
+                height = (here - least) / usual
+                if height >= 1.0:
+                    share = 1.0 if level == last else max(2.0 - height, 0.0)
+                else:
+                    share = 1.0 if level == 0 else 2.0 * height - 1.0
+                most = tiles[first + y, x, 2]
+                if most > here:
+                    share *= (most - tiles[first + y, x, 1]) / (most - least)
+                covered += share * _bump(x - x0, u) * _bump(y - y0, v)
+    return 1.0 - min(covered, 1.0)
 
 
 @njit("f8(f8[:,::1], i8, i8, f8)", cache=True, nogil=True)
@@ -132,8 +222,8 @@ def _encoded(linear: Any, curve: Any) -> Any:
 
 _shade_types = (
     "void(f8[:,::1], f8[:,::1], i8[:,::1], f8[:,::1], f8[:,::1], f8[:,::1], f8[::1], f8[:,::1],"
-    " i4[:,::1], f8[::1], f8, f8[::1], f8[:,::1], f8[:,::1], f8[:,::1], f8, i8, f8[:,::1],"
-    " f8[::1], u1[:,:,::1])"
+    " i4[:,::1], f8[::1], f8, f8[::1], f8[:,::1], f8[:,::1], f4[:,:,::1], i8[::1], f8, i8,"
+    " f8[:,::1], f8[::1], u1[:,:,::1])"
 )
 
 
@@ -153,7 +243,8 @@ def shade(
     sun: Any,
     lights: Any,
     shadow_from: Any,
-    shadow: Any,
+    tiles: Any,
+    rows: Any,
     texel_m: Any,
     samples: Any,
     background: Any,
@@ -167,28 +258,31 @@ def shade(
     (N, 3) linear. roughness: (F,). eye, sun: (3,) the eye's place and the unit direction towards
     the key light. reach: samples a metre at distance 1. lights: (4, 3) linear colours of key, sky,
     ground and rim. shadow_from: (4, 3) rows that map a place to x, y and depth of the shadow
-    buffer, and their constants. shadow: (S, S) depths; texel_m: metres between its samples.
-    samples: samples per pixel, each way. background: (H / samples, 3) linear, by row. curve: a
-    table of the encoding over [0, 1]. out: (H / samples, W / samples, 3) the picture over the
-    background, or with 4 the light alone and its coverage.
+    buffer, and their constants. tiles, rows: of the shadow buffer's depths in metres, as of
+    `coarsen`; texel_m: metres between its samples. samples: samples per pixel, each way.
+    background: (H / samples, 3) linear, by row. curve: a table of the encoding over [0, 1]. out:
+    (H / samples, W / samples, 3) the picture over the background, or with 4 the light alone and its
+    coverage.
     """
-    rows, columns, channels = out.shape
-    size = shadow.shape[0]
+    height, width, channels = out.shape
     bary = np.empty(3)
     n = np.empty(3)
     p = np.empty(3)
     base = np.empty(3)
     view = np.empty(3)
     pixel = np.empty(3)
+    asked = np.empty(3)
+    answer = 1.0
     whole = samples * samples
     bare = np.empty(3, dtype=np.uint8)
-    for v0 in range(rows):
+    for v0 in range(height):
         for k in range(3):
             bare[k] = np.uint8(_encoded(background[v0, k], curve) * 255.0 + 0.5)
-        for u0 in range(columns):
+        for u0 in range(width):
             pixel[:] = 0.0
             cover = 0
             free = 0.0
+            asked[:] = _FAR
             for first in range(whole):
                 y, x = v0 * samples + first // samples, u0 * samples + first % samples
                 t = seen[y, x]
@@ -244,7 +338,13 @@ def shade(
                 direct = n[0] * sun[0] + n[1] * sun[1] + n[2] * sun[2]
                 lit = 1.0
                 if direct > 0.0:
-                    lit = _lit(p, n, shadow_from, shadow, size, texel_m)
+                    apart = 0.0
+                    for k in range(3):
+                        apart += (p[k] - asked[k]) ** 2
+                    if apart > _SAME_M**2:
+                        answer = _lit(p, n, direct, shadow_from, tiles, rows, texel_m)
+                        asked[:] = p
+                    lit = answer
                 half_x, half_y, half_z = sun[0] + view[0], sun[1] + view[1], sun[2] + view[2]
                 half = np.sqrt(half_x * half_x + half_y * half_y + half_z * half_z)
                 shine = max((n[0] * half_x + n[1] * half_y + n[2] * half_z) / half, 0.0)

@@ -21,8 +21,16 @@ Floats = NDArray[np.float64]
 TOP = (0.036, 0.075, 0.125)
 BANDS = (0.026, 0.055, 0.095)
 TROUSERS = (0.030, 0.031, 0.036)
+INSIDE = 0.45
+"""How dark cloth is at the inner end of a rim, where little light comes."""
 SHOES = (0.012, 0.011, 0.011)
 BAND_M = 0.014
+CUFF_FROM_M, COLLAR_FROM_M = 0.085, 0.04
+"""Distance from its rim at which cloth begins to narrow."""
+BAND_LIFT_M = 0.0025
+"""Height of cuffs and collar over the skin."""
+CLOSED_M = 0.0015
+"""How deep in skin or trousers the top's rims end, so that nobody looks into a sleeve."""
 SLEEVE = 0.93
 """Share of the forearm that the sleeve covers."""
 
@@ -78,8 +86,11 @@ class Pattern:
         return np.minimum(self.neckline(at), self.sleeves(at))
 
 
-def clothes(suit: Piece, anatomy: Anatomy) -> Sequence[Piece]:
-    """Return top with collar and cuffs, trousers and shoes from the helper suit."""
+def clothes(suit: Piece, skin: Piece, anatomy: Anatomy) -> Sequence[Piece]:
+    """Return top with collar and cuffs, trousers and shoes from the helper suit.
+
+    skin: all of the body's, on which collar and cuffs lie. The top is closed towards skin and legs.
+    """
     pattern = Pattern(anatomy)
     upper = pattern.hem(suit.vertices, 0.20) > 0.0
     loose = suit.smoothed(4, 0.6 * _chest(suit.vertices, anatomy))
@@ -87,21 +98,51 @@ def clothes(suit: Piece, anatomy: Anatomy) -> Sequence[Piece]:
     fine = fine.relaxed(8)
     wide = pattern.hem(fine.vertices, 0.07)
     cloth = fine.raised(0.0045 + 0.006 * smooth_step(0.35, 0.0, wide))
+    cuffs = smooth_step(CUFF_FROM_M, BAND_M, pattern.sleeves(cloth.vertices))
+    collar = smooth_step(COLLAR_FROM_M, BAND_M, pattern.neckline(cloth.vertices))
+    cloth = _drawn_in(cloth, skin, np.maximum(cuffs, collar))
     rims = np.minimum(pattern.covered(cloth.vertices), pattern.hem(cloth.vertices, 0.07))
-    shirt = cloth.clipped(rims).folded(0.004)
-    rib = pattern.covered(shirt.vertices) - BAND_M
     close = loose.raised(0.003)
     waist = -pattern.hem(close.vertices, -0.05)
-    legs = close.clipped(np.minimum(waist, pattern.ankle(close.vertices) + 0.025)).folded(0.004)
+    legs = close.clipped(np.minimum(waist, pattern.ankle(close.vertices) + 0.025))
+    shirt = _closed(cloth.clipped(rims), skin, legs)
+    rib = pattern.covered(shirt.vertices) - BAND_M
     feet = loose.raised(0.009)
     return [
         replace(shirt.clipped(rib), name="top", colour=TOP, roughness=0.9),
         replace(shirt.clipped(-rib), name="bands", colour=BANDS, roughness=0.9),
-        replace(legs, name="trousers", colour=TROUSERS, roughness=0.9),
+        replace(legs.folded(0.004), name="trousers", colour=TROUSERS, roughness=0.9),
         replace(
             feet.clipped(-pattern.ankle(feet.vertices)), name="shoes", colour=SHOES, roughness=0.6
         ),
     ]
+
+
+def _drawn_in(cloth: Piece, skin: Piece, share: Floats) -> Piece:
+    """Return cloth that lies close to the skin, and moves with it, by a share (n,) of the way."""
+    rows = np.flatnonzero(share > 0.0)
+    close, part = skin.under(cloth.vertices[rows], -BAND_LIFT_M), share[rows, None]
+    vertices, weights = np.array(cloth.vertices), np.array(cloth.weights)
+    vertices[rows] += part * (close.vertices - vertices[rows])
+    weights[rows] += part * (close.weights - weights[rows])
+    return replace(cloth, vertices=vertices, weights=weights)
+
+
+def _closed(cloth: Piece, *below: Piece) -> Piece:
+    """Return cloth whose rims turn in and end below what is nearest of some pieces."""
+    rim = cloth.vertices[cloth.rims[1]]
+    found = [piece.under(rim, CLOSED_M) for piece in below]
+    nearest = np.argmin([np.linalg.norm(one.vertices - rim, axis=1) for one in found], axis=0)
+    rows = np.arange(len(rim))
+    return cloth.turned_in(
+        replace(
+            cloth,
+            vertices=np.stack([one.vertices for one in found])[nearest, rows],
+            weights=np.stack([one.weights for one in found])[nearest, rows],
+            deltas=np.stack([one.deltas for one in found], axis=1)[:, nearest, rows],
+            colours=np.full((len(rim), 3), INSIDE),
+        )
+    )
 
 
 def bare(skin: Piece, anatomy: Anatomy, margin_m: float = 0.02) -> Piece:

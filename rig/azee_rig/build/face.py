@@ -1,4 +1,4 @@
-"""Parts of a face: eyes with iris and pupil, brows, lips, nails."""
+"""Parts of a face: eyes with iris and pupil, lips, nails."""
 
 from __future__ import annotations
 
@@ -6,13 +6,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 from azee_rig.build.anatomy import SIDES, Anatomy
 from azee_rig.build.clothes import smooth_step
 from azee_rig.build.piece import Piece
-from azee_rig.nearest import barycentric
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -37,22 +35,6 @@ EYE_RINGS: tuple[tuple[float, tuple[float, float, float]], ...] = (
 )
 """Rings of an eyeball: degrees from the middle of the pupil, and their linear colour."""
 EYE_SEGMENTS = 32
-
-BROW = np.array(
-    [
-        (0.22, 0.350, 0.030),
-        (0.27, 0.362, 0.052),
-        (0.38, 0.388, 0.062),
-        (0.52, 0.415, 0.058),
-        (0.66, 0.422, 0.050),
-        (0.80, 0.395, 0.036),
-        (0.93, 0.325, 0.014),
-    ]
-)
-"""A brow from the nose outwards: place to the side and above the eyes, and half its width, in
-distances between the eyes."""
-BROW_COLOUR = (0.020, 0.013, 0.009)
-BROW_STEPS, BROW_ROWS = 24, 5
 
 
 def eyeballs(anatomy: Anatomy, old: Mapping[str, Piece]) -> Piece:
@@ -99,82 +81,6 @@ def _eyeball(anatomy: Anatomy, side: str, old: Piece) -> Piece:
     still = replace(old, deltas=np.zeros_like(old.deltas))
     made = still.blend(rows, np.ones((len(vertices), 1)), np.array(vertices))
     return replace(made, triangles=np.array(triangles), colours=np.array(colours))
-
-
-def brows(skin: Piece, anatomy: Anatomy, colour: tuple[float, float, float]) -> Piece:
-    """Return two strips that lie on the brow ridge and move with the skin under them."""
-    eyes = [anatomy.origin(f"eye_{s}") for s in SIDES]
-    middle, apart = (eyes[0] + eyes[1]) / 2.0, float(np.linalg.norm(eyes[0] - eyes[1]))
-    front = skin.vertices[:, 2] > middle[2] - 0.6 * apart
-    face = skin.only(front[skin.triangles].all(axis=1))
-    mesh = trimesh.Trimesh(face.vertices, face.triangles, process=False)
-    steps = np.linspace(0.0, 1.0, BROW_STEPS)
-    knots = np.linspace(0.0, 1.0, len(BROW))
-    across, up, half = (_curve(steps, knots, BROW[:, k]) for k in range(3))
-    slope = np.gradient(up, across)
-    tilt = np.stack([-slope, np.ones_like(slope)], axis=1)
-    tilt /= np.linalg.norm(tilt, axis=1, keepdims=True)
-    rows = np.linspace(-1.0, 1.0, BROW_ROWS)
-    plane = (
-        np.stack([across, up], axis=1)[:, None]
-        + (rows[:, None] * half[:, None, None]) * tilt[:, None]
-    )
-    places: list[Floats] = []
-    lifts: list[float] = []
-    triangles: list[tuple[int, int, int]] = []
-    for sign in (1.0, -1.0):
-        start = len(places)
-        for i in range(BROW_STEPS):
-            for j in range(BROW_ROWS):
-                x, y = plane[i, j]
-                places.append(middle + apart * np.array([sign * x, y, 1.5]))
-                taper = min(1.0, 4.0 * steps[i] + 0.25, 3.0 * (1.0 - steps[i]) + 0.1)
-                lifts.append(0.0007 + 0.0022 * (1.0 - rows[j] ** 2) * taper)
-        for i in range(BROW_STEPS - 1):
-            for j in range(BROW_ROWS - 1):
-                a = start + i * BROW_ROWS + j
-                quad = (a, a + BROW_ROWS, a + BROW_ROWS + 1, a + 1)
-                order = quad if sign > 0 else quad[::-1]
-                triangles += [(order[0], order[1], order[2]), (order[0], order[2], order[3])]
-    found, hit, shares = _under(mesh, np.array(places))
-    normals = np.einsum("mk,mkc->mc", shares, mesh.vertex_normals[mesh.faces[hit]])
-    lifted = found + np.array(lifts)[:, None] * normals
-    strip = face.blend(mesh.faces[hit], shares, lifted)
-    return replace(
-        strip,
-        name="brows",
-        triangles=np.array(triangles),
-        colours=np.ones((len(lifted), 3)),
-        colour=colour,
-        roughness=0.8,
-    )
-
-
-def _curve(at: Floats, knots: Floats, values: Floats) -> Floats:
-    """Return a Catmull–Rom curve through values at even knots."""
-    tangent = np.gradient(values, knots)
-    i = np.clip(np.searchsorted(knots, at, side="right") - 1, 0, len(knots) - 2)
-    width = knots[i + 1] - knots[i]
-    t = (at - knots[i]) / width
-    return np.asarray(
-        (2 * t**3 - 3 * t**2 + 1) * values[i]
-        + (t**3 - 2 * t**2 + t) * width * tangent[i]
-        + (3 * t**2 - 2 * t**3) * values[i + 1]
-        + (t**3 - t**2) * width * tangent[i + 1]
-    )
-
-
-def _under(mesh: trimesh.Trimesh, places: Floats) -> tuple[Floats, Ints, Floats]:
-    """Return the first surface behind each place: point, triangle and barycentric shares."""
-    found, ray, hit = mesh.ray.intersects_location(
-        places, np.tile([0.0, 0.0, -1.0], (len(places), 1)), multiple_hits=False
-    )
-    order = np.argsort(ray)
-    if len(order) != len(places):
-        raise ValueError("a brow reaches beyond the face")
-    found, hit = found[order], hit[order]
-    shares = barycentric(mesh.triangles[hit], found)
-    return found, hit, shares
 
 
 def tinted(skin: Piece, regions: Mapping[str, Ints], count: int) -> Piece:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from azee_rig.build.makehuman import Body
 from azee_rig.mesh import BodyMesh, Part, vertex_normals
+from azee_rig.nearest import barycentric, nearest
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -148,23 +149,54 @@ class Piece:
 
     def folded(self, depth_m: float) -> Piece:
         """Return the piece with its rims turned in, so that cloth has a thickness."""
+        rows = self.rims[1]
+        normals = vertex_normals(self.vertices, self.triangles)[rows]
+        rim = self.blend(rows[:, None], np.ones((len(rows), 1)), self.vertices[rows])
+        return self.turned_in(replace(rim, vertices=rim.vertices - depth_m * normals))
+
+    def turned_in(self, inner: Piece) -> Piece:
+        """Return the piece with a strip from its rims to loose vertices, one per vertex of `rims`.
+
+        The strip has vertices of its own at the rims, for the edge between is sharp.
+        """
+        edges, rows = self.rims
+        outer = self.blend(rows[:, None], np.ones((len(rows), 1)), self.vertices[rows])
+        a, b = np.searchsorted(rows, edges.T) + len(self.vertices)
+        c, d = a + len(rows), b + len(rows)
+        strip = np.concatenate([np.stack([b, a, c], axis=1), np.stack([b, c, d], axis=1)])
+        parts = self, outer, inner
+        return replace(
+            self,
+            vertices=np.concatenate([part.vertices for part in parts]),
+            triangles=np.concatenate([self.triangles, strip]),
+            weights=np.concatenate([part.weights for part in parts]),
+            deltas=np.concatenate([part.deltas for part in parts], axis=1),
+            colours=np.concatenate([part.colours for part in parts]),
+        )
+
+    @property
+    def rims(self) -> tuple[Ints, Ints]:
+        """Edges with only one triangle, (e, 2), and their vertices in ascending order, (r,)."""
         edges = self._edges
         _, which, times = np.unique(
             np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True
         )
         rim = edges[times[which.ravel()] == 1]
-        rows, numbered = np.unique(rim, return_inverse=True)
-        inner = numbered.reshape(-1, 2) + len(self.vertices)
-        normals = vertex_normals(self.vertices, self.triangles)[rows]
-        folded = self.extended(rows[:, None], np.ones((len(rows), 1)))
-        vertices = np.array(folded.vertices)
-        vertices[len(self.vertices) :] -= depth_m * normals
-        strip = [[rim[:, 1], rim[:, 0], inner[:, 0]], [rim[:, 1], inner[:, 0], inner[:, 1]]]
-        return replace(
-            folded,
-            vertices=vertices,
-            triangles=np.concatenate([self.triangles, *(np.stack(t, axis=1) for t in strip)]),
+        return rim, np.unique(rim)
+
+    def under(self, points: Floats, depth_m: float) -> Piece:
+        """Return loose vertices below the places of this piece's surface nearest to points (n, 3).
+
+        A negative depth is a height above.
+        """
+        found = nearest(self.vertices, self.triangles, points)
+        rows = self.triangles[found.triangles]
+        shares = barycentric(self.vertices[rows], found.points)
+        normals = np.einsum(
+            "mk,mkc->mc", shares, vertex_normals(self.vertices, self.triangles)[rows]
         )
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        return self.blend(rows, shares, found.points - depth_m * normals)
 
     def raised(self, height: Floats | float) -> Piece:
         """Return the piece moved along its normals, by one height in metres or one each."""

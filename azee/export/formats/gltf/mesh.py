@@ -23,8 +23,9 @@ def add_mesh(document: Document, mesh: BodyMesh, name: str) -> int:
     """Add the mesh in its bind pose; returns its index.
 
     Every primitive has all morph targets, as glTF asks; what a target leaves alone costs nothing.
-    Materials have two sides: nearly every part has a border, such as a cuff, beyond which one
-    sees its inside. The names of the targets stand in the mesh's extras, where viewers look.
+    Materials have two sides: hairs are flat, and clothes of imported bodies may have open ends,
+    beyond which one sees their inside. The names of the targets stand in the mesh's extras, where
+    viewers look.
     """
     targets = _Targets(list(morph_targets(mesh)))
     primitives = [_primitive(document, mesh, part, targets) for part in mesh.parts]

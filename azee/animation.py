@@ -140,12 +140,17 @@ def animate(
     timeline = flatten(score)
 
     # 3. Bind every constraint to the body: a timed task says which limbs it moves and reads.
-    schedule = bind(timeline, rig, evaluator.binding, selection.limbs, layered=layered)
+    schedule = performance.schedule or bind(
+        timeline, rig, evaluator.binding, selection.limbs, layered=layered
+    )
 
     # 4 to 10. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
     at_rest = rest_posture(rig, rest, dominant)
-    planned = plan(schedule, evaluator, selection, postures, frames_inside, at_rest, needed_s)
+    planned = plan(
+        schedule, evaluator, selection, postures, frames_inside, at_rest, needed_s,
+        performance.boundaries,
+    )  # fmt: skip
 
     # 11. Sample the movement at the clip's frames, and lay accents and life on it.
     times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)

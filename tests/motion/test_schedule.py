@@ -253,7 +253,9 @@ def test_keyframes_on_a_path_wait_for_its_ends() -> None:
     found = schedule(
         block("A", "0", ".5", Place(TIP, MIDDLE)),
         block("P", ".5", "1", PATH),
-        block("NOD", ".9", ".2", Rotate(Bone("head"), UP, 0.1)),
+        block("LOOK", ".9", ".2", Look(FORWARD)),
+        block("NOD", ".7", ".1", Rotate(Bone("head"), UP, 0.1)),
+        block("FACE", ".8", ".1", Morph("AU1", None, 1.0)),
         block("B", "1.5", ".5", Place(TIP, RIGHT)),
     )
     known = path_motions(found, Side.RIGHT)

@@ -92,8 +92,8 @@ def solve_boundaries(
         tasks = in_force(schedule, time, early_ends)
         if not beginning_or_ending(tasks, time) or time in deferred:
             continue
-        opening = [t for t in tasks if t.requirement.starts_or_runs(time)]
-        closing = [t for t in tasks if not t.requirement.starts_or_runs(time)]
+        closing = [t for t in tasks if t.interval.end == time != t.interval.start]
+        opening = [t for t in tasks if t not in closing]
         posture = _looking_ahead(time, opening, closing, schedule, solver)
         if posture is None:
             posture = _shared(time, opening, closing, solver, binding)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from azee.motion.curves.avoidance import CollisionAvoidance
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.movement import Interpolation, Movement
-from azee.motion.keys.boundaries import NeededTime, solve_boundaries
+from azee.motion.keys.boundaries import Boundaries, NeededTime, solve_boundaries
 from azee.motion.keys.in_between import InBetweenSolver
 from azee.motion.keys.key_posture_solver import KeyPostureSolver
 from azee.motion.keys.neutral import ReturnToNeutral
@@ -56,11 +56,13 @@ def plan(
     frame_times: Sequence[Fraction],
     rest: Array,
     needed_s: NeededTime | None = None,
+    solved: Boundaries | None = None,
 ) -> Plan:
     """Plan the movement that meets a schedule at the given frames inside the score.
 
     Args: rest: (V,) the posture in which limbs are that nothing needs. needed_s: what a block that
-        ends early leaves for the way; a quick transition by default.
+        ends early leaves for the way; a quick transition by default. solved: the boundaries, if
+        they are solved already.
     """
     coordinates, limbs = evaluator.rig.coordinates, selection.limbs
 
@@ -71,7 +73,9 @@ def plan(
     # 5. Solve a key posture at every boundary of blocks, in order of time; those on paths wait.
     neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
     key_solver = KeyPostureSolver(coordinates, selection, solver, index_by_time(motions), neutral)
-    boundaries = solve_boundaries(schedule, key_solver, evaluator.binding, deferred, needed_s)
+    boundaries = solved or solve_boundaries(
+        schedule, key_solver, evaluator.binding, deferred, needed_s
+    )
 
     # 6. Join the key postures to a movement, limb by limb, by minimum jerk.
     in_use = limbs_in_use(schedule, motions)

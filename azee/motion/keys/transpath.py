@@ -204,10 +204,12 @@ def boundaries_on_paths(
 ) -> frozenset[Fraction]:
     """Return the boundaries at which a path holds a site and no other path starts or ends.
 
-    They can be solved only when the ends of the paths are known.
+    They can be solved only when the ends of the paths are known. Boundaries at which nothing
+    begins or ends that a posture meets, such as those of faces, need no posture.
     """
     index = index_by_time(motions)
-    times = (keyframe.time for keyframe in schedule.timeline.keyframes)
+    spans = (task.interval for task in schedule.posture_tasks)
+    times = {time for span in spans for time in (span.start, span.end)}
     on_paths = (t for t in times if any(m.controls(t) for m in index.at(t)))
     return frozenset(on_paths) - end_times(motions)
 

@@ -21,11 +21,10 @@ class IntervalIndex(Generic[T]):
 
     def __init__(self, items: Iterable[tuple[Interval, T]]) -> None:
         self._entries = [*items]
-        self._instants: tuple[Fraction, ...] = tuple(
-            sorted({t for span, _ in self._entries for t in (span.start, span.end)})
-        )
+        ends = [(float(span.start), float(span.end)) for span, _ in self._entries]
+        self._instants: list[float] = sorted({t for span in ends for t in span})
         position = {t: i for i, t in enumerate(self._instants)}
-        self._ends = [(position[span.start], position[span.end]) for span, _ in self._entries]
+        self._ends = [(position[start], position[end]) for start, end in ends]
         self._stretches: list[list[int]] = [[] for _ in self._instants]
         for k, (first, last) in enumerate(self._ends):
             for i in range(first, last + 1):
@@ -33,14 +32,17 @@ class IntervalIndex(Generic[T]):
 
     def at(self, time: Fraction) -> list[T]:
         """Return what lasts at an instant, in the order given."""
-        return self.covering(Interval(time, time))
+        return self._covering(float(time), float(time))
 
     def covering(self, interval: Interval) -> list[T]:
         """Return what lasts from the start of an interval to its end, in the order given."""
-        i = bisect_right(self._instants, interval.start) - 1
+        return self._covering(float(interval.start), float(interval.end))
+
+    def _covering(self, first: float, last: float) -> list[T]:
+        i = bisect_right(self._instants, first) - 1
         if i < 0:
             return []
-        end = bisect_left(self._instants, interval.end, lo=i)
+        end = bisect_left(self._instants, last, lo=i)
         return [self._entries[k][1] for k in self._stretches[i] if self._ends[k][1] >= end]
 
     def overlapping(self, interval: Interval) -> list[T]:
@@ -49,8 +51,8 @@ class IntervalIndex(Generic[T]):
 
     def overlapping_entries(self, interval: Interval) -> list[tuple[Interval, T]]:
         """Return what shares an instant with an interval, each with its own interval."""
-        start = bisect_left(self._instants, interval.start)
-        end = bisect_right(self._instants, interval.end) - 1
+        start = bisect_left(self._instants, float(interval.start))
+        end = bisect_right(self._instants, float(interval.end)) - 1
         near = {k for stretch in self._stretches[max(0, start - 1) : end + 1] for k in stretch}
         return [
             self._entries[k]

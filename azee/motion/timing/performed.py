@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.curves.movement import Interpolation
-from azee.motion.keys.boundaries import solve_boundaries
+from azee.motion.keys.boundaries import Boundaries, solve_boundaries
 from azee.motion.keys.key_posture_solver import KeyPostureSolver
 from azee.motion.keys.neutral import ReturnToNeutral
 from azee.motion.keys.plan import limbs_in_use
@@ -20,7 +20,7 @@ from azee.motion.keys.transpath import anchor, boundaries_on_paths, index_by_tim
 from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.key_posture import PostureSolver
 from azee.motion.tasks.key_selection import KeySelection
-from azee.motion.tasks.schedule import bind
+from azee.motion.tasks.schedule import TaskSchedule, bind
 from azee.motion.timing.accents import is_accent
 from azee.motion.timing.bend import Bend, bend_for
 from azee.motion.timing.pace import Pace
@@ -78,11 +78,16 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Performance:
-    """A score as performed, what of it takes longer, and by how much the whole does."""
+    """A score as performed, what of it takes longer, and by how much the whole does.
+
+    schedule, boundaries: of the score as performed, if the last round has solved it.
+    """
 
     score: Score
     stretched: tuple[Stretch, ...] = ()
     extra_s: Fraction = Fraction(0)
+    schedule: TaskSchedule | None = None
+    boundaries: Boundaries | None = None
 
 
 @dataclass(slots=True)
@@ -105,6 +110,17 @@ class _Bends:
             else:
                 self.asked.append((way, own))
         self.bends.append(bend)
+
+    def performance(
+        self,
+        now: Score,
+        before: Score,
+        schedule: TaskSchedule | None = None,
+        boundaries: Boundaries | None = None,
+    ) -> Performance:
+        """Return what has become of a score."""
+        extra_s = now.duration - before.duration
+        return Performance(now, self.stretches(), extra_s, schedule, boundaries)
 
     def stretches(self) -> tuple[Stretch, ...]:
         """Return what takes longer in the end, in order of time."""
@@ -143,17 +159,16 @@ def performed(
     bends, now = _Bends(), score
     tried: set[_Identity] = set()
     for _ in range(ROUNDS):
-        lacking = [
-            w for w in _ways(now, evaluator, selection, solver, pace, rest) if _lacks_time(w)
-        ]
+        schedule, boundaries, ways = _solved(now, evaluator, selection, solver, pace, rest)
+        lacking = [w for w in ways if _lacks_time(w)]
         bendable = [w for w in lacking if _identity(w) not in tried]
         bend = bend_for(bendable, fixed_intervals(now))
         if not bend.extra_s:
-            break
+            return bends.performance(now, score, schedule, boundaries)
         tried.update(_identity(w) for w in bendable)
         bends.add(bend, bendable)
         now = warped(now, bend, lambda s: is_accent(s, evaluator.binding))
-    return Performance(now, bends.stretches(), now.duration - score.duration)
+    return bends.performance(now, score)
 
 
 def _lacks_time(way: Way) -> bool:
@@ -172,15 +187,15 @@ def _identity(way: Way) -> _Identity:
     return way.side, way.source, way.target, way.interval.duration
 
 
-def _ways(
+def _solved(
     score: Score,
     evaluator: Evaluator,
     selection: KeySelection,
     solver: PostureSolver,
     pace: Pace,
     rest: Array,
-) -> list[Way]:
-    """Return all ways of arms in a score, as its key postures at boundaries have them."""
+) -> tuple[TaskSchedule, Boundaries, list[Way]]:
+    """Solve a score's key postures at boundaries; return all ways of arms between them, too."""
     coordinates, limbs = evaluator.rig.coordinates, selection.limbs
     schedule = bind(
         flatten(score), evaluator.rig, evaluator.binding, limbs, layered=not selection.flat
@@ -190,17 +205,19 @@ def _ways(
     deferred = boundaries_on_paths(motions, schedule)
     neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
     key_solver = KeyPostureSolver(coordinates, selection, solver, index_by_time(motions), neutral)
-    postures = solve_boundaries(
+    boundaries = solve_boundaries(
         schedule, key_solver, evaluator.binding, deferred, measure.needed_s
-    ).postures
+    )
+    postures = boundaries.postures
     in_use = limbs_in_use(schedule, motions)
     interpolation = Interpolation(
         evaluator.rig, limbs, in_use, rest, hands_together=not selection.flat
     )
     movement = interpolation.through(postures)
     paths = anchor(motions, postures, movement, evaluator)
-    return [
+    ways = [
         *measure.between_keys(postures, movement, motions),
         *measure.along_paths(paths.values(), movement),
         *measure.behind_targets(schedule, movement),
     ]
+    return schedule, boundaries, ways

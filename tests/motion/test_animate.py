@@ -339,6 +339,33 @@ def test_a_trill_swings_as_often_and_as_far_as_it_says_and_fades() -> None:
     assert np.abs(swing[frame_at(animation, 1.0)]).max() < 1e-9
 
 
+@pytest.mark.parametrize("axis", [Vec(1, 0, 0), Vec(0, 2, 0), Dir(Bone("f_arm", S))], ids=str)
+def test_a_trill_turns_about_a_fixed_axis_of_the_bone_before(axis: Vec | Dir) -> None:
+    """An axis without bones in it is carried along; how long it is does not matter."""
+    score = sync(
+        block("T", "0", "1", Trill(Bone("palm", S), axis, 2.5, math.radians(6))),
+        block("P", "0", "1", at(TIP, 0, 0, 0)),
+    )
+    animation, plain = played(score, fps=60.0), played(sync(score.blocks[1]), fps=60.0)
+    row = frame_at(animation, 0.5)
+    before, after = (
+        rig().chain.frames(made.clip.coordinates[row : row + 1]).rotations[0]
+        for made in (plain, animation)
+    )
+    bones = rig().bones
+    palm, parent = bones["palm_R"].node, int(rig().chain.parents[bones["palm_R"].origin_node])
+    turn = after[palm] @ before[palm].T
+    if isinstance(axis, Vec):
+        wanted = before[parent] @ np.sign([axis.x, axis.y, axis.z])
+    else:
+        wanted = before[bones["f_arm_R"].node][:, 1]
+    skew = (turn - turn.T) / 2
+    spin = np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
+    # Sine 2π 2.5 · 0.5 = 1: half-way the palm is turned by the whole amplitude.
+    assert abs(spin @ wanted) == pytest.approx(math.sin(math.radians(6)), rel=0.03)
+    assert np.linalg.norm(spin) == pytest.approx(abs(spin @ wanted), rel=0.02)
+
+
 def test_a_look_turns_eyes_and_lids_and_leaves_the_arms_at_rest() -> None:
     score = sync(
         block("GAZE", "0", "1", LookAt(FreePoint(-0.3, 0.1, 1.0))),

@@ -59,6 +59,37 @@ def test_the_hierarchy_is_the_skeletons(small: GlbArrays) -> None:
     assert roots == ["root", "small_mesh"]
 
 
+def test_the_skin_hangs_on_the_root_and_the_mesh_begins_without_any_unit(
+    small: GlbArrays,
+) -> None:
+    (skin,) = small.document["skins"]
+    assert small.document["nodes"][skin["skeleton"]]["name"] == "root"
+    (mesh,) = small.document["meshes"]
+    assert mesh["weights"] == [0.0] * len(SMALL.mesh.units)
+    assert mesh["extras"]["targetNames"] == list(SMALL.mesh.units)
+
+
+def test_the_root_goes_its_way_from_where_it_rests(small: GlbArrays) -> None:
+    (told,) = small.document["animations"]
+    (channel,) = (c for c in told["channels"] if c["target"]["path"] == "translation")
+    assert small.document["nodes"][channel["target"]["node"]]["name"] == "root"
+    found = small.array(told["samplers"][channel["sampler"]]["output"])
+    way = tumbling().coordinates[:, :3] + SMALL.skeleton.offsets[0]
+    assert np.allclose(found, way, atol=1e-6)
+
+
+def test_bounds_are_told_where_readers_look_for_them(small: GlbArrays) -> None:
+    """Of places, of their changes and of times, and truly."""
+    bounded = [p["attributes"]["POSITION"] for p in _primitives(small)]
+    bounded += [t["POSITION"] for p in _primitives(small) for t in p["targets"]]
+    bounded += [s["input"] for a in small.document["animations"] for s in a["samplers"]]
+    assert len(bounded) > 8
+    for number in bounded:
+        accessor, rows = small.document["accessors"][number], small.array(number)
+        assert accessor["min"] == pytest.approx(rows.min(axis=0).tolist(), abs=1e-6)
+        assert accessor["max"] == pytest.approx(rows.max(axis=0).tolist(), abs=1e-6)
+
+
 def test_every_vertex_hangs_on_its_joints(small: GlbArrays) -> None:
     mesh = SMALL.mesh
     assert len([*_primitives(small)]) == len(mesh.parts) > 1

@@ -158,7 +158,11 @@ TIMES = (
     _mistake(
         "sync 'A (blank 1) 'B (blank 1) 'strat 'A:end", "unknown-sync-rule 1:32", hint="start"
     ),
-    _mistake("sync 'A (blank 1) 'B (blank 1) :bien", "unknown-sync-rule 1:32"),
+    _mistake(
+        "sync 'A (blank 1) 'B (blank 1) :bien",
+        "unknown-sync-rule 1:32",
+        words="the rule of the block `B` is expected here",
+    ),
     _mistake("sync 'A (blank 1) 'B (blank 1) 'start/end 'A:end", "missing-argument 1:19"),
     _mistake(
         "sync\n    'A (blank 1)\n    'B key .1 (look ^up)\n    'start 'A:end",

@@ -131,6 +131,14 @@ def test_a_damaged_file_has_one_clear_message(change: tuple[str, str], said: str
         parse_bvh(FIGURE.replace(*change))
 
 
+@pytest.mark.parametrize("above", [0, 1, 3])
+def test_lines_are_counted_from_the_top_of_the_file(above: int) -> None:
+    for wrong, line in (("OFFSET 0 20 0", 12), ("5 90 0 90", 25)):
+        text = "\n" * above + FIGURE.replace(wrong, wrong.replace("0", "up"))
+        with pytest.raises(BvhError, match=f"line {line + above}: .9?up. is "):
+            parse_bvh(text)
+
+
 @given(st.integers(0, len(FIGURE)), st.integers(0, 60), st.text(max_size=12))
 def test_any_damage_is_read_or_refused(start: int, length: int, instead: str) -> None:
     try:
@@ -206,6 +214,8 @@ def test_where_only_carriers_slide_zero_alone_is_added(hips: str, added: bool) -
         ("0.0083333", 120.0, None),
         (".04167", 24.0, None),
         ("2", 0.5, None),
+        ("5", 0.2, None),
+        ("1e-4", 1e4, None),
         ("60", 60.0, "the frame time 60 is no seconds: 60 frames a second are taken"),
         ("29.97", 29.97, "29.97 frames a second"),
         ("55", 55.0, "55 frames a second"),

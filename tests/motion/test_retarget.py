@@ -132,6 +132,16 @@ def stick_figure(frames: int, change: tuple[str, str] = ("", ""), step_s: float 
     return text + head + "\n".join(rows) + "\n"
 
 
+def test_a_figure_of_any_size_makes_the_same_movement(signer: Rig) -> None:
+    """Told in millimetres, hers is an arm of five centimetres."""
+    text = stick_figure(4)
+    large, small = (measure_recording(parse_bvh(text, unit)) for unit in ("cm", "mm"))
+    assert small.arm_m == pytest.approx(large.arm_m / 10)
+    assert small.arm_m < 0.1
+    made = [retarget(source, signer).clip.coordinates for source in (large, small)]
+    np.testing.assert_allclose(made[1], made[0], atol=1e-4)
+
+
 @pytest.mark.parametrize("frames", [1, 2, 3, 4, 8, 9])
 def test_any_number_of_frames_can_be_retargeted(
     signer: Rig, frames: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]

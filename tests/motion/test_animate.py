@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
@@ -16,6 +17,7 @@ from azee.score.interval import Interval
 from azee.score.score import Block, Call, Group, Hold, Key, Score
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
+from azee_solver.collisions import Overlap
 from azee_solver.constraint import (
     BoneAxis,
     Constraint,
@@ -462,6 +464,20 @@ def test_the_report_is_plain_json_with_the_documented_fields() -> None:
         assert row["unit"] in ("m", "rad")
         assert row["met"] == (row["reason"] is None)
     assert report["limits"] == {"max_excess_rad": 0.0, "joint": None}
+
+
+def test_what_overlaps_in_a_key_posture_is_told_with_its_time() -> None:
+    report = played(PATH).report
+    first, *others = report.postures
+    overlaps = Overlap("hand_R", "trunk_3", 0.004), Overlap("index_R_1", "face", 0.002)
+    inside = replace(first, report=replace(first.report, penetration=overlaps))
+    rows = replace(report, postures=(inside, *others)).as_json()["penetration"]
+    assert rows == [
+        {"time_s": float(first.time), "pair": ["hand_R", "trunk_3"], "depth_m": 0.004,
+         "intended": False},
+        {"time_s": float(first.time), "pair": ["index_R_1", "face"], "depth_m": 0.002,
+         "intended": False},
+    ]  # fmt: skip
 
 
 def test_what_cannot_be_reached_is_reported_and_not_an_exception() -> None:

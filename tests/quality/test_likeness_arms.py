@@ -37,6 +37,14 @@ def test_a_minimum_jerk_hand_has_its_peak_speed_and_acceleration(signer: Rig) ->
     assert min(abs(acceleration.at_s - t) for t in (at, 1.4 - at)) < 0.01
 
 
+def test_of_two_hands_that_are_equally_fast_the_left_is_told(signer: Rig) -> None:
+    both = drawn(signer, 1.5, wrists=dict.fromkeys("RL", moves(0.4, 0.4, 0.6)))
+    for measured in (largest_wrist_speed, largest_wrist_acceleration):
+        found = measured(both, (), "transitional")
+        assert found is not None
+        assert found.of == "palm_L"
+
+
 def test_a_forearm_swings_its_wrist_on_an_arc(signer: Rig) -> None:
     """1.875 times the angle by the time, times the forearm, where shoulders are .36 m apart."""
     k = drawn(signer, 1.2, {"f_arm_L.flexion": moves(40.0, 0.3, 0.5, 30.0)})
@@ -171,7 +179,7 @@ def test_joints_that_start_one_after_the_other_spread_their_onsets(signer: Rig) 
     )
     spans = [span(0.5, 1.0, limbs=ARM_R), span(1.6, 2.0, limbs=ARM_R)]
     (found,) = transitions(k, spans)
-    assert found.onset_spread_ms == pytest.approx(60.0, abs=2.0)
+    assert found.onset_spread_ms == pytest.approx(60.0, abs=0.5)
 
 
 def test_a_slower_joint_s_onset_comes_later(signer: Rig) -> None:
@@ -186,7 +194,7 @@ def test_a_slower_joint_s_onset_comes_later(signer: Rig) -> None:
     )
     spans = [span(0.5, 1.0, limbs=ARM_R), span(1.8, 2.0, limbs=ARM_R)]
     (found,) = transitions(k, spans)
-    assert found.onset_spread_ms == pytest.approx(1e3 * 0.2 * (1.0 - SHARE) / 2.0, abs=1.0)
+    assert found.onset_spread_ms == pytest.approx(1e3 * 0.2 * (1.0 - SHARE) / 2.0, abs=0.3)
 
 
 def test_joints_that_start_together_have_no_spread(signer: Rig) -> None:

@@ -81,6 +81,9 @@ def test_a_jump_is_not_unasked_where_movement_or_another_posture_is_asked(signer
     assert unasked_turns(k, [buoy, path]) == ()
     assert len(unasked_turns(k, [buoy, other])) == 1
     assert unasked_turns(k, [buoy, other, follows]) == ()
+    for start, end in ((1.005, 1.2), (0.8, 1.004)):  # begins or ends with the jump
+        beside = span(start, end, limb="index_R", limbs=ARM_R, moving=True)
+        assert unasked_turns(k, [buoy, beside, follows]) == ()
     assert unasked_turns(k, [buoy, next_one]) == ()
     assert unasked_turns(k, [span(0.5, 1.5, limb="head")]) == ()
     assert unasked_turns(k, []) == ()

@@ -189,6 +189,23 @@ def test_fingers_side_by_side_need_be_no_farther_apart_than_when_straight() -> N
     assert these.reach[-1] == pytest.approx(0.014)
 
 
+def test_arms_keep_clear_of_the_trunk_by_a_margin_and_of_each_other_by_none() -> None:
+    """Also where the zero pose has them overlap: that is forgiven fingers alone."""
+    c = RIG.capsules
+    wide = np.where(np.array(c.names) == "trunk_1", 0.3, c.radius)
+    rig = replace(RIG, capsules=replace(c, radius=wide))
+    these = Obstacles(Binding(rig, Side.RIGHT), BODY, ())
+    for reach, (i, j) in zip(these.reach, these.pairs, strict=True):
+        limbs = [c.names[k].startswith(("upper", "fore", "hand")) for k in (i, j)]
+        margin = 0.0 if all(limbs) else 0.004
+        assert reach == pytest.approx(wide[i] + wide[j] + margin), (c.names[i], c.names[j])
+    at_zero = rig.chain.frames(np.zeros(len(rig.coordinates)))
+    n = pair(these, "hand_R", "trunk_1")
+    k = c.names.index("hand_R")
+    hand = at_zero.rotations[c.node[k]] @ c.a[k] + at_zero.positions[c.node[k]]
+    assert np.linalg.norm(hand - [0.0, 1.07, 0.0]) < these.reach[n]
+
+
 def test_two_sites_at_one_place_are_meant_to_touch() -> None:
     point = FreePoint(0.0, -0.2, 0.3)
     met = obstacles(Place(Site("PA", S), point), Place(Site("PA", W), point))

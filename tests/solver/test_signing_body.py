@@ -76,17 +76,36 @@ def inside(
     ]
 
 
-def test_a_hand_in_the_chest_is_seen_inside(signer: Rig, planted: SolveReport) -> None:
-    """What the tests below ask to find nothing finds a hand that is there."""
-    q, index = signer.coordinates.idle.copy(), signer.coordinates.index
+def in_chest(rig: Rig) -> NDArray[np.float64]:
+    """A posture (V,) with the right hand in the chest."""
+    q, index = rig.coordinates.idle.copy(), rig.coordinates.index
     turned = {"arm_R.rotation": 80, "arm_R.flexion": 0, "f_arm_R.flexion": 110}
     for name, angle in (turned | {"arm_R.abduction": 0}).items():
         q[index[name]] = math.radians(angle)
-    found = inside(signer, replace(planted, coordinates=q))
+    return q
+
+
+def test_a_hand_in_the_chest_is_seen_inside(signer: Rig, planted: SolveReport) -> None:
+    """What the tests below ask to find nothing finds a hand that is there."""
+    found = inside(signer, replace(planted, coordinates=in_chest(signer)))
     deep = [(limb, body) for limb, body, depth_m in found if depth_m > 0.05]
     assert ("arm_R", "trunk") in deep
     assert {body for _, body in deep} == {"trunk"}
     assert all(limb.endswith("_R") for limb, _ in deep)
+
+
+def test_parts_that_hang_loose_on_a_limb_enter_nothing(signer: Rig) -> None:
+    """Were the hands hair, only the sleeves would be in the chest."""
+    entered = {p.limb for p in mesh_penetration(signer, in_chest(signer)) if p.body == "trunk"}
+    assert {"arm_R", "thumb_R"} <= entered
+    parts = tuple(
+        replace(part, name="hair") if part.name == "skin" else part for part in signer.mesh.parts
+    )
+    assert parts != signer.mesh.parts
+    loose = replace(signer)
+    vars(loose)["mesh"] = replace(signer.mesh, parts=parts)  # in place of what its file has
+    found = {p.limb for p in mesh_penetration(loose, in_chest(signer))}
+    assert found == {"arm_R"}
 
 
 @pytest.fixture(scope="module")

@@ -78,6 +78,31 @@ def test_the_root_goes_its_way_from_where_it_rests(small: GlbArrays) -> None:
     assert np.allclose(found, way, atol=1e-6)
 
 
+def test_of_the_two_quaternions_of_a_turn_the_one_of_less_than_half_a_turn_comes_first(
+    small: GlbArrays, tmp_path: Path
+) -> None:
+    clip = tumbling()
+    other = clip.coordinates.copy()
+    other[:, 3:] *= -1.0
+    write_glb(replace(clip, coordinates=other), SMALL, tmp_path / "other.glb")
+    again = GlbArrays.read(tmp_path / "other.glb")
+    (told,) = small.document["animations"]
+    compared = 0
+    for channel, other_channel in zip(
+        told["channels"], again.document["animations"][0]["channels"], strict=True
+    ):
+        assert channel["target"] == other_channel["target"]
+        rows, others = (
+            file.array(file.document["animations"][0]["samplers"][c["sampler"]]["output"])
+            for file, c in ((small, channel), (again, other_channel))
+        )
+        assert np.allclose(rows, others, atol=1e-6)
+        if channel["target"]["path"] == "rotation":
+            assert rows[0, 3] >= 0.0
+            compared += 1
+    assert compared == 5
+
+
 def test_bounds_are_told_where_readers_look_for_them(small: GlbArrays) -> None:
     """Of places, of their changes and of times, and truly."""
     bounded = [p["attributes"]["POSITION"] for p in _primitives(small)]

@@ -188,6 +188,36 @@ def test_between_ways_the_cheapest_of_all_paths_is_taken(signer: Rig, clip: Clip
         np.testing.assert_array_equal(found[:, own], ways[path, np.arange(frames)][:, own])
 
 
+@pytest.mark.parametrize(("lean_deg", "straight"), [(19.0, True), (21.0, False)])
+def test_a_figure_that_leans_a_little_stands_straight(lean_deg: float, straight: bool) -> None:
+    head = f"OFFSET 0 60 {60 * np.tan(np.radians(lean_deg)):.6f}"
+    upright, leaning = (
+        measure_recording(parse_bvh(stick_figure(2, ("OFFSET 0 60 0", offset))))
+        for offset in ("OFFSET 0 60 0", head)
+    )
+    off = np.abs(leaning.palms - upright.palms).max()
+    assert (off < 1e-6) == straight
+
+
+def test_hands_without_fingers_are_told() -> None:
+    found = measure_recording(parse_bvh(stick_figure(2)))
+    *_, bare, left_out = found.notes
+    assert bare.startswith("no fingers (")
+    assert left_out == "where the body goes and how its legs move is left out"
+    assert isinstance(found.notes, tuple)
+
+
+def test_digits_that_a_body_lacks_are_not_measured(signer: Rig, clip: Clip) -> None:
+    lacking = {f"index_R_{k}" for k in (1, 2, 3)}
+    bones = {name: bone for name, bone in signer.bones.items() if name not in lacking}
+    names = tuple(name.replace("index_R", "bump_R") for name in signer.coordinates.names)
+    body = replace(signer, bones=bones, coordinates=replace(signer.coordinates, names=names))
+    found = {digit.name for digit in measure_clip(clip, body).digits}
+    whole = {digit.name for digit in measure_clip(clip, signer).digits}
+    assert len(whole) == 10
+    assert whole - found == {"index_R"}
+
+
 def test_a_figure_of_any_size_makes_the_same_movement(signer: Rig) -> None:
     """Told in millimetres, hers is an arm of five centimetres."""
     text = stick_figure(4)

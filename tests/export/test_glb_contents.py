@@ -12,12 +12,13 @@ import numpy as np
 import pytest
 from glb_arrays import GlbArrays
 from numpy.typing import NDArray
-from small_rig import SMALL, tumbling
+from small_rig import SMALL, SmallRig, tumbling
 
 from azee.clip.clip import Clip
 from azee.export.formats.glb import write_glb
 from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Rig
+from azee_rig.skeleton import Skeleton
 
 
 @pytest.fixture(scope="module")
@@ -104,7 +105,7 @@ def test_of_the_two_quaternions_of_a_turn_the_one_of_less_than_half_a_turn_comes
 
 
 def test_bounds_are_told_where_readers_look_for_them(small: GlbArrays) -> None:
-    """Of places, of their changes and of times, and truly."""
+    """Of places, of their changes and of times, and truly; nothing else needs the room."""
     bounded = [p["attributes"]["POSITION"] for p in _primitives(small)]
     bounded += [t["POSITION"] for p in _primitives(small) for t in p["targets"]]
     bounded += [s["input"] for a in small.document["animations"] for s in a["samplers"]]
@@ -113,6 +114,9 @@ def test_bounds_are_told_where_readers_look_for_them(small: GlbArrays) -> None:
         accessor, rows = small.document["accessors"][number], small.array(number)
         assert accessor["min"] == pytest.approx(rows.min(axis=0).tolist(), abs=1e-6)
         assert accessor["max"] == pytest.approx(rows.max(axis=0).tolist(), abs=1e-6)
+    others = [a for n, a in enumerate(small.document["accessors"]) if n not in bounded]
+    assert others
+    assert not any("min" in accessor or "max" in accessor for accessor in others)
 
 
 def test_every_vertex_hangs_on_its_joints(small: GlbArrays) -> None:
@@ -136,6 +140,35 @@ def test_every_vertex_hangs_on_its_joints(small: GlbArrays) -> None:
         corners = small.array(primitive["indices"]).reshape(-1, 3)
         part = mesh.parts[number]
         assert np.array_equal(used[corners], mesh.triangles[part.start : part.stop])
+
+
+class ManyJoints(SmallRig):
+    """The small body on 300 joints; vertices hang on the last ones."""
+
+    skeleton = Skeleton(
+        (*SMALL.skeleton.names, *(f"more {n}" for n in range(6, 300))),
+        np.r_[SMALL.skeleton.parents, np.zeros(294, dtype=np.int64)],
+        np.vstack([SMALL.skeleton.offsets, np.full((294, 3), 0.01)]),
+    )
+
+    @property
+    def mesh(self) -> BodyMesh:
+        mesh = super().mesh
+        return replace(mesh, joints=299 - mesh.joints, joint_count=300)
+
+
+def test_joints_beyond_256_keep_their_numbers(tmp_path: Path) -> None:
+    rig = ManyJoints()
+    rest = np.tile(np.r_[np.zeros(3), np.tile([1.0, 0.0, 0.0, 0.0], 300)], (2, 1))
+    write_glb(Clip(np.arange(2) / 25, rest, (), np.zeros((2, 0))), rig, tmp_path / "many.glb")
+    file = GlbArrays.read(tmp_path / "many.glb")
+    for number, primitive in enumerate(_primitives(file)):
+        joints = file.array(primitive["attributes"]["JOINTS_0"]).astype(int)
+        weights = file.array(primitive["attributes"]["WEIGHTS_0"])
+        dense = rig.mesh.dense_weights[_used(rig.mesh, number)]
+        rows = np.arange(len(joints))[:, None]
+        assert np.abs(dense[rows, joints] - weights)[weights > 0].max() < 1e-4
+        assert joints.max() > 255
 
 
 def test_every_target_moves_what_its_unit_moves(small: GlbArrays) -> None:

@@ -180,6 +180,34 @@ def test_a_fist_is_a_fist(signer: Rig, phalanges: int) -> None:
     assert len(shared) == (phalanges == 2)
 
 
+def test_trunk_and_head_are_bent_alike_however_the_whole_body_is_turned() -> None:
+    bends = {"chest": (4.0, 10.0, -6.0), "head": (0.0, -8.0, 12.0)}
+    one, other = {**bends}, {**bends, "hips": (15.0, 20.0, 30.0)}
+    found = measured(stick_signer([bent(OPEN), one, other])).coordinates
+    bones = ("back_1", "back_2", "neck", "head")
+    assert found.keys() == {f"{b}.{way}" for b in bones for way in ("flexion", "axial", "lateral")}
+    for name, angles in found.items():
+        assert abs(angles[1] - angles[0]) > np.radians(0.3), name
+        assert angles[2] == pytest.approx(angles[1], abs=1e-6), name
+
+
+@pytest.mark.parametrize("lacking", ["", "middle", "ring", "middle|ring|little"])
+def test_a_palm_points_to_its_middle_knuckle_or_to_the_mean_of_those_there_are(
+    lacking: str,
+) -> None:
+    text = stick_signer([bent(OPEN)] * 2)
+    if lacking:
+        text = re.sub(rf"JOINT ({lacking})", r"JOINT bump\1", text)
+    there = {f: z for f, z in FINGERS.items() if f not in lacking.split("|")}
+    aside = there.get("middle", float(np.mean([*there.values()])))
+    if len(there) < 2:
+        aside = 0.0  # as the forearm points
+    for s, palm in zip((1.0, -1.0), np.swapaxes(measured(text).palms, 0, 1), strict=True):
+        along = np.array([9.0 * s, 0.0, aside]) / np.hypot(9.0, aside)
+        np.testing.assert_allclose(palm[:, :, 1], [along] * 2, atol=1e-6)
+        np.testing.assert_allclose(palm[:, :, 2], [[0.0, -1.0, 0.0]] * 2, atol=0.1)
+
+
 def test_digits_without_joints_to_bend_are_told_once(signer: Rig) -> None:
     text = stick_signer([bent(OPEN), bent({"index_1": 40})])
     text = re.sub(r"JOINT (thumb|little)", r"JOINT bump\1", text)

@@ -248,6 +248,8 @@ def test_elbows_of_a_symmetric_sign_are_mirror_images(signer: Rig) -> None:
     assert found.value == pytest.approx(100.0 * k.scale * chord, abs=0.01)
     assert found.at_s == pytest.approx(1.0, abs=FRAME)
     assert elbow_asymmetry_cm(k, both[:1]) is None
+    nod = span(0.6, 0.8, limb="head", constraint=LEVEL)
+    assert elbow_asymmetry_cm(k, [*both, nod]) == found  # the arms hold on meanwhile
     level = forearm_level(Side.LEFT)
     moving = span(0.5, 1.5, limb="palm_L", limbs=ARM_L, constraint=level, moving=True)
     assert elbow_asymmetry_cm(k, [*both, moving]) is None

@@ -454,6 +454,17 @@ def test_depth_is_that_of_nesting_not_of_length() -> None:
     assert found(text) == []
 
 
+@pytest.mark.parametrize(
+    "text",
+    ["blank {}", "sync 'A (blank 0) 'B (blank 1) 'start/dur 'A:end {}"],
+    ids=["alone", "block"],
+)
+def test_a_score_lasts_a_day_and_no_longer(text: str) -> None:
+    assert found(text.format(86400)) == []
+    (code,) = found(text.format("86400.1"))
+    assert code.startswith("size-limit")
+
+
 def test_steps_are_counted_and_limited() -> None:
     assert program(TRIPLING).check() == ()
     limited = program(TRIPLING, limits=Limits(steps=100))

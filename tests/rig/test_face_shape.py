@@ -22,7 +22,8 @@ the tip of the nose and down to the chin, and how far ahead the skin beside an e
 def measured(hat_m: float = 0.4, **changed: Any) -> FaceShape:
     """Measure a face of points (x, y, z) from the middle of the eyes, some of them changed.
 
-    hat_m: how high what is not skin reaches above the eyes.
+    hat_m: how high what is not skin reaches above the eyes. Each point is on both sides, but a
+    mole is on one.
     """
     points = {
         "temple": (LEVEL, 0.0, -0.03),
@@ -35,7 +36,11 @@ def measured(hat_m: float = 0.4, **changed: Any) -> FaceShape:
         "crown": (0.0, 0.15, -0.05),
         "occiput": (0.0, 0.02, -0.12),
     } | changed
-    rows = [(s * x, y, z) for x, y, z in points.values() for s in (1, -1)]
+    rows = [
+        (s * x, y, z)
+        for name, (x, y, z) in points.items()
+        for s in ((1,) if name == "mole" else (1, -1))
+    ]
     hat, other = (0.0, hat_m, 0.0), (0.9, 0.0, 0.9)
     vertices = np.array([*rows, hat, other]) + (EYES["eye_L"] + EYES["eye_R"]) / 2
     count = len(rows)
@@ -57,6 +62,12 @@ def test_a_face_has_the_sizes_of_its_points() -> None:
     """The crown is hair's, too; what hangs on another joint does not count; nor does a nostril."""
     wanted = shares(out=LEVEL, up=0.4, down=CHIN, ahead=NOSE, back=0.12)
     assert astuple(measured()) == pytest.approx(astuple(wanted))
+
+
+def test_the_wider_side_tells_how_wide_a_face_is() -> None:
+    for side in (1.0, -1.0):
+        found = measured(mole=(side * 1.05 * LEVEL, 0.0, -0.03))
+        assert found.out == pytest.approx(1.05 * LEVEL / (SIGNER["out"] * APART_M))
 
 
 def test_joints_deep_behind_the_eyes_are_told_and_others_are_not() -> None:

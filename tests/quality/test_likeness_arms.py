@@ -197,6 +197,28 @@ def test_a_slower_joint_s_onset_comes_later(signer: Rig) -> None:
     assert found.onset_spread_ms == pytest.approx(1e3 * 0.2 * (1.0 - SHARE) / 2.0, abs=0.3)
 
 
+def test_what_joints_do_after_a_transition_is_none_of_its_onset(signer: Rig) -> None:
+    """A joint that leaps a frame later is fastest then; its onset is that in the transition."""
+    wrists = {"R": moves(0.3, 1.0, 0.5), "L": still()}
+    spans = [span(0.5, 1.0, limbs=ARM_R), span(1.6, 2.0, limbs=ARM_R)]
+    swing = moves(40.0, 1.0, 0.5, 12.0)
+    elbow = moves(40.0, 1.05, 0.5, 40.0)
+
+    def spread(*, leap_s: float) -> tuple[float | None, float]:
+        def leaps(t: np.ndarray) -> np.ndarray:
+            return np.asarray(elbow(t) + np.where(t > leap_s, 30.0, 0.0))
+
+        k = drawn(signer, 3.0, {"arm_R.abduction": swing, "f_arm_R.flexion": leaps}, wrists)
+        (found,) = transitions(k, spans)
+        return found.onset_spread_ms, found.end_s
+
+    plain, end_s = spread(leap_s=9.0)
+    assert plain is not None
+    assert plain == pytest.approx(50.0, abs=1.0)
+    assert spread(leap_s=end_s + 1.5 / 120)[0] == plain
+    assert spread(leap_s=end_s + 0.5 / 120)[0] != plain
+
+
 def test_joints_that_start_together_have_no_spread(signer: Rig) -> None:
     k = drawn(
         signer,

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 from body_families import FAMILIES, Body, make_body
+from numpy.typing import NDArray
 
 from azee_rig.importing.bone_map import BoneMap
 from azee_rig.importing.propose import propose
@@ -170,3 +171,26 @@ def test_joints_at_the_wrist_that_only_hand_digits_on_are_none_of_theirs(body: B
     for digit in ("Thumb", "Index", "Middle"):
         chain = [found.bones[f"{digit.lower()}_L_{k}"] for k in (1, 2, 3)]
         assert chain == [(f"LeftHand{digit}{k}",) for k in (1, 2, 3)]
+
+
+def test_a_chest_that_carries_the_legs_is_the_pelvis_and_no_part_of_the_back(body: Body) -> None:
+    legs = [n for n, name in enumerate(body.names) if name.endswith("UpLeg")]
+    parents = np.array(body.parents)
+    parents[legs] = body.names.index("Spine2")
+    names = tuple("Spine0" if name == "Hips" else name for name in body.names)
+    order = sorted(range(len(names)), key=lambda j: len(_above(parents, j)))
+    number = {j: i for i, j in enumerate(order)}
+    tree = Tree(
+        tuple(names[j] for j in order),
+        np.array([number.get(int(parents[j]), -1) for j in order]),
+        body.places[order],
+    )
+    found = propose(tree)
+    assert found.root == "Spine2"
+    back = found.bones.get("back_1", ()) + found.bones["back_2"]
+    assert back == ("Spine0", "Spine", "Spine1")
+
+
+def _above(parents: NDArray[np.int64], joint: int) -> list[int]:
+    """All that a joint hangs on."""
+    return [] if parents[joint] < 0 else [joint, *_above(parents, int(parents[joint]))]

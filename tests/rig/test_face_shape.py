@@ -80,6 +80,19 @@ def test_joints_deep_behind_the_eyes_are_told_and_others_are_not() -> None:
         assert found.back == pytest.approx((0.12 + deep) / (SIGNER["back"] * APART_M))
 
 
+@pytest.mark.parametrize(
+    ("x", "y", "told"),
+    [(0.4, 0.24, True), (0.4, 0.26, False), (0.21, 0.01, True), (0.19, 0.01, False),
+     (0.49, 0.01, True), (0.51, 0.01, False)],
+)  # fmt: skip
+def test_the_skin_beside_an_eye_tells_how_deep_it_lies(x: float, y: float, told: bool) -> None:
+    """Within a quarter of the half width from their height, and a fifth to a half aside."""
+    size = CHEEK / SIGNER["out"]
+    lid = (x * CHEEK, y * CHEEK, 0.85 * size)
+    found = measured(lid=lid, nose=(0.0, -0.04, 0.15))
+    assert found.deep == pytest.approx((0.85 - 0.28) * size / APART_M if told else 0.0)
+
+
 def test_a_face_like_the_signer_s_is_measured_by_its_eyes_alone() -> None:
     like = {name: share * APART_M for name, share in SIGNER.items()}
     points: dict[str, Any] = {

@@ -131,6 +131,12 @@ def test_a_finger_of_a_metacarpal_and_two_joints_has_no_middle_one(body: Body) -
     assert found.bones["middle_L_2"] == ("LeftHandMiddle2",)
 
 
+def test_a_finger_of_one_joint_bends_at_its_last(body: Body) -> None:
+    found = _only(body, "LeftHandIndex2 LeftHandIndex3", "Hips")
+    assert found.bones["index_L_3"] == ("LeftHandIndex1",)
+    assert not {"index_L_1", "index_L_2"} & found.bones.keys()
+
+
 @pytest.mark.parametrize(("further", "carried", "tip"), [
     (1, 1.0, "LeftHandIndex4"), (1, 0.0, "LeftHandIndex4"), (2, 0.0, "LeftHandIndex4"),
     (2, 1.0, None),

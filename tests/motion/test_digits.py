@@ -180,6 +180,21 @@ def test_a_fist_is_a_fist(signer: Rig, phalanges: int) -> None:
     assert len(shared) == (phalanges == 2)
 
 
+def test_a_joint_beyond_the_last_of_a_digit_tells_its_end_as_an_end_site_does() -> None:
+    text = stick_signer([bent(OPEN), bent(FIST)])
+    numbers = iter(range(99))
+    joints = re.sub(
+        r"End Site \{ (OFFSET [^}]+) \}",
+        lambda m: f"JOINT pad{next(numbers)} {{ {m[1]} CHANNELS 0 }}",
+        text,
+    )
+    plain, other = (measured(written).digits for written in (text, joints))
+    assert len(plain) == len(other) == 10
+    for one, same in zip(plain, other, strict=True):
+        assert one.name == same.name
+        np.testing.assert_allclose(same.frames, one.frames, atol=1e-9)
+
+
 def test_trunk_and_head_are_bent_alike_however_the_whole_body_is_turned() -> None:
     bends = {"chest": (4.0, 10.0, -6.0), "head": (0.0, -8.0, 12.0)}
     one, other = {**bends}, {**bends, "hips": (15.0, 20.0, 30.0)}

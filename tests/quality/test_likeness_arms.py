@@ -288,6 +288,8 @@ def test_the_angle_of_a_wrist_is_that_of_hand_and_forearm(signer: Rig) -> None:
     assert found.beyond_share == pytest.approx(0.3, abs=1 / 120)
     assert found.largest_deg.value == pytest.approx(40.0)
     assert found.largest_deg.of == "palm_L"
+    alike = {f"palm_{side}.flexion": bent for side in "RL"}
+    assert wrist_bend(drawn(signer, 1.0, alike)).largest_deg.of == "palm_L"
     both = drawn(signer, 0.1, {"palm_R.flexion": still(30.0), "palm_R.deviation": still(-20.0)})
     angle = wrist_bend(both).largest_deg.value
     frames, bones = both.frames, signer.bones

@@ -87,6 +87,8 @@ def test_a_unit_that_a_face_lacks_borrows_of_a_near_one_that_is_not_asked_for_it
     face = map_face([near], {}, DATA, table, {})
     assert face.expressed["both"] == pytest.approx({near: 0.9})
     assert face.partly == ("alone", "both")
+    lids = {"eyeBlinkLeft": ("eye_L.pitch", 1.0)}
+    assert map_face(["eyeBlinkLeft", near], {}, DATA, table, lids).targets == (near, "eyeBlinkLeft")
 
 
 def test_the_end_of_another_word_is_no_name() -> None:

@@ -77,7 +77,7 @@ class _Limb:
 
 @dataclass(frozen=True, eq=False)
 class _Regions:
-    """Limbs that are tested, and triangles that bound the parts, (F, 3)."""
+    """Limbs that are tested, and triangles (F, 3) that bound the parts, of those that have any."""
 
     limbs: Mapping[str, _Limb]
     surfaces: Mapping[str, NDArray[np.int64]]
@@ -130,7 +130,8 @@ def _regions(rig: Rig) -> _Regions:
     surfaces = {}
     for name in names:
         whole = (share[name][mesh.triangles] > 0.5).all(axis=1)
-        surfaces[name] = mesh.triangles[bounding & whole]
+        if (bounding & whole).any():
+            surfaces[name] = mesh.triangles[bounding & whole]
     limbs = {}
     for name in names:
         if name in ("trunk", "head"):

@@ -124,6 +124,25 @@ def test_the_same_score_gives_the_same_bytes_and_the_date_it_is_told(
         assert ElementTree.parse(tmp_path / "c").getroot().get("DATE", "").startswith(date)
 
 
+def test_a_film_on_another_drive_has_no_relative_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No path leads from one drive of Windows to another."""
+
+    def fails(*_: object) -> str:
+        raise ValueError("path is on mount 'D:', start on mount 'C:'")
+
+    monkeypatch.setattr("os.path.relpath", fails)
+    score = Key(Fraction(1))
+    write_eaf(score, tmp_path / "a.eaf", media=tmp_path / "film.mp4")
+    root = ElementTree.parse(tmp_path / "a.eaf").getroot()
+    check(root)
+    media = root.find("HEADER/MEDIA_DESCRIPTOR")
+    assert media is not None
+    film = (tmp_path / "film.mp4").resolve().as_uri()
+    assert media.attrib == {"MEDIA_URL": film, "MIME_TYPE": "video/mp4"}
+
+
 def test_commands_write_it_with_the_video_beside_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -31,9 +31,10 @@ def _turn(axis: int, angle: float) -> np.ndarray:
 
 @given(arrays(np.float64, (4, 3), elements=ANGLES))
 def test_quaternions_are_the_product_in_the_order_of_the_channels(angles: np.ndarray) -> None:
-    ours = _matrix(EulerZXY(angles).quaternions())
-    for (z, x, y), matrix in zip(angles, ours, strict=True):
-        np.testing.assert_allclose(_turn(2, z) @ _turn(0, x) @ _turn(1, y), matrix, atol=1e-12)
+    quaternions = EulerZXY(angles).quaternions()
+    np.testing.assert_allclose(np.linalg.norm(quaternions, axis=-1), np.ones(4), atol=1e-12)
+    wanted = np.stack([_turn(2, z) @ _turn(0, x) @ _turn(1, y) for z, x, y in angles])
+    np.testing.assert_allclose(_matrix(quaternions), wanted, atol=1e-12)
 
 
 @given(arrays(np.float64, (5, 2, 3), elements=ANGLES | NEAR_LOCK))

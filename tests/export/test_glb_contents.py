@@ -12,12 +12,13 @@ import numpy as np
 import pytest
 from glb_arrays import GlbArrays
 from numpy.typing import NDArray
-from small_rig import SMALL, tumbling
+from small_rig import SMALL, SmallRig, tumbling
 
 from azee.clip.clip import Clip
 from azee.export.formats.glb import write_glb
 from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Rig
+from azee_rig.skeleton import Skeleton
 
 
 @pytest.fixture(scope="module")
@@ -59,6 +60,65 @@ def test_the_hierarchy_is_the_skeletons(small: GlbArrays) -> None:
     assert roots == ["root", "small_mesh"]
 
 
+def test_the_skin_hangs_on_the_root_and_the_mesh_begins_without_any_unit(
+    small: GlbArrays,
+) -> None:
+    (skin,) = small.document["skins"]
+    assert small.document["nodes"][skin["skeleton"]]["name"] == "root"
+    (mesh,) = small.document["meshes"]
+    assert mesh["weights"] == [0.0] * len(SMALL.mesh.units)
+    assert mesh["extras"]["targetNames"] == list(SMALL.mesh.units)
+
+
+def test_the_root_goes_its_way_from_where_it_rests(small: GlbArrays) -> None:
+    (told,) = small.document["animations"]
+    (channel,) = (c for c in told["channels"] if c["target"]["path"] == "translation")
+    assert small.document["nodes"][channel["target"]["node"]]["name"] == "root"
+    found = small.array(told["samplers"][channel["sampler"]]["output"])
+    way = tumbling().coordinates[:, :3] + SMALL.skeleton.offsets[0]
+    assert np.allclose(found, way, atol=1e-6)
+
+
+def test_of_the_two_quaternions_of_a_turn_the_one_of_less_than_half_a_turn_comes_first(
+    small: GlbArrays, tmp_path: Path
+) -> None:
+    clip = tumbling()
+    other = clip.coordinates.copy()
+    other[:, 3:] *= -1.0
+    write_glb(replace(clip, coordinates=other), SMALL, tmp_path / "other.glb")
+    again = GlbArrays.read(tmp_path / "other.glb")
+    (told,) = small.document["animations"]
+    compared = 0
+    for channel, other_channel in zip(
+        told["channels"], again.document["animations"][0]["channels"], strict=True
+    ):
+        assert channel["target"] == other_channel["target"]
+        rows, others = (
+            file.array(file.document["animations"][0]["samplers"][c["sampler"]]["output"])
+            for file, c in ((small, channel), (again, other_channel))
+        )
+        assert np.allclose(rows, others, atol=1e-6)
+        if channel["target"]["path"] == "rotation":
+            assert rows[0, 3] >= 0.0
+            compared += 1
+    assert compared == 5
+
+
+def test_bounds_are_told_where_readers_look_for_them(small: GlbArrays) -> None:
+    """Of places, of their changes and of times, and truly; nothing else needs the room."""
+    bounded = [p["attributes"]["POSITION"] for p in _primitives(small)]
+    bounded += [t["POSITION"] for p in _primitives(small) for t in p["targets"]]
+    bounded += [s["input"] for a in small.document["animations"] for s in a["samplers"]]
+    assert len(bounded) > 8
+    for number in bounded:
+        accessor, rows = small.document["accessors"][number], small.array(number)
+        assert accessor["min"] == pytest.approx(rows.min(axis=0).tolist(), abs=1e-6)
+        assert accessor["max"] == pytest.approx(rows.max(axis=0).tolist(), abs=1e-6)
+    others = [a for n, a in enumerate(small.document["accessors"]) if n not in bounded]
+    assert others
+    assert not any("min" in accessor or "max" in accessor for accessor in others)
+
+
 def test_every_vertex_hangs_on_its_joints(small: GlbArrays) -> None:
     mesh = SMALL.mesh
     assert len([*_primitives(small)]) == len(mesh.parts) > 1
@@ -80,6 +140,35 @@ def test_every_vertex_hangs_on_its_joints(small: GlbArrays) -> None:
         corners = small.array(primitive["indices"]).reshape(-1, 3)
         part = mesh.parts[number]
         assert np.array_equal(used[corners], mesh.triangles[part.start : part.stop])
+
+
+class ManyJoints(SmallRig):
+    """The small body on 300 joints; vertices hang on the last ones."""
+
+    skeleton = Skeleton(
+        (*SMALL.skeleton.names, *(f"more {n}" for n in range(6, 300))),
+        np.r_[SMALL.skeleton.parents, np.zeros(294, dtype=np.int64)],
+        np.vstack([SMALL.skeleton.offsets, np.full((294, 3), 0.01)]),
+    )
+
+    @property
+    def mesh(self) -> BodyMesh:
+        mesh = super().mesh
+        return replace(mesh, joints=299 - mesh.joints, joint_count=300)
+
+
+def test_joints_beyond_256_keep_their_numbers(tmp_path: Path) -> None:
+    rig = ManyJoints()
+    rest = np.tile(np.r_[np.zeros(3), np.tile([1.0, 0.0, 0.0, 0.0], 300)], (2, 1))
+    write_glb(Clip(np.arange(2) / 25, rest, (), np.zeros((2, 0))), rig, tmp_path / "many.glb")
+    file = GlbArrays.read(tmp_path / "many.glb")
+    for number, primitive in enumerate(_primitives(file)):
+        joints = file.array(primitive["attributes"]["JOINTS_0"]).astype(int)
+        weights = file.array(primitive["attributes"]["WEIGHTS_0"])
+        dense = rig.mesh.dense_weights[_used(rig.mesh, number)]
+        rows = np.arange(len(joints))[:, None]
+        assert np.abs(dense[rows, joints] - weights)[weights > 0].max() < 1e-4
+        assert joints.max() > 255
 
 
 def test_every_target_moves_what_its_unit_moves(small: GlbArrays) -> None:

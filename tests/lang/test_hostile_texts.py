@@ -10,7 +10,7 @@ from evaluations import program
 from hostile_texts import HOSTILE, Hostile, nested, sequence
 
 from azee.lang.fault import fault, together
-from azee.lang.machine import DEFAULT_LIMITS, Machine
+from azee.lang.machine import DEFAULT_LIMITS, HEAVY, Machine
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.source import Source, Span
 
@@ -52,6 +52,19 @@ def test_steps_grow_linearly(text: object, monkeypatch: pytest.MonkeyPatch) -> N
         assert diagnostics == ()
         counts.append(steps)
     assert counts[2] - counts[1] == counts[1] - counts[0] > 0
+
+
+def test_each_block_of_a_sync_is_paid_for_as_heavy(monkeypatch: pytest.MonkeyPatch) -> None:
+    counts = []
+    for size in (1, 2, 3, 20):
+        blocks = "".join(f"    'B{n} blank(1)\n" + (f"    'start 'B{n - 1}:end\n" if n else "")
+                         for n in range(size))  # fmt: skip
+        steps, diagnostics = spent(f"sync\n{blocks}", monkeypatch)
+        assert diagnostics == ()
+        counts.append(steps)
+    assert counts[2] - counts[1] == counts[1] - counts[0]
+    assert counts[3] - counts[2] == 17 * (counts[1] - counts[0])
+    assert counts[1] - counts[0] >= HEAVY
 
 
 def test_a_hundred_levels_and_a_thousand_applications_are_within_the_limits() -> None:

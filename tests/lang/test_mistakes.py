@@ -158,7 +158,11 @@ TIMES = (
     _mistake(
         "sync 'A (blank 1) 'B (blank 1) 'strat 'A:end", "unknown-sync-rule 1:32", hint="start"
     ),
-    _mistake("sync 'A (blank 1) 'B (blank 1) :bien", "unknown-sync-rule 1:32"),
+    _mistake(
+        "sync 'A (blank 1) 'B (blank 1) :bien",
+        "unknown-sync-rule 1:32",
+        words="the rule of the block `B` is expected here",
+    ),
     _mistake("sync 'A (blank 1) 'B (blank 1) 'start/end 'A:end", "missing-argument 1:19"),
     _mistake(
         "sync\n    'A (blank 1)\n    'B key .1 (look ^up)\n    'start 'A:end",
@@ -448,6 +452,17 @@ def test_depth_is_that_of_nesting_not_of_length() -> None:
     assert found("seq map(azop('n, 0, blank(mul(^n, .01))), range(1, 500))") == []
     text = "let 'n 1 seq(list(" + ", ".join(["blank(add(^n, 1))"] * 500) + "))"
     assert found(text) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["blank {}", "sync 'A (blank 0) 'B (blank 1) 'start/dur 'A:end {}"],
+    ids=["alone", "block"],
+)
+def test_a_score_lasts_a_day_and_no_longer(text: str) -> None:
+    assert found(text.format(86400)) == []
+    (code,) = found(text.format("86400.1"))
+    assert code.startswith("size-limit")
 
 
 def test_steps_are_counted_and_limited() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
@@ -17,6 +18,7 @@ from azee.score.interval import Interval
 from azee.score.score import Block, Call, Group, Hold, Key, Score
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
+from azee_solver.collisions import Overlap
 from azee_solver.constraint import (
     BoneAxis,
     Constraint,
@@ -371,6 +373,33 @@ def test_a_trill_swings_as_often_and_as_far_as_it_says_and_fades() -> None:
     assert np.abs(swing[frame_at(animation, 1.0)]).max() < 1e-9
 
 
+@pytest.mark.parametrize("axis", [Vec(1, 0, 0), Vec(0, 2, 0), Dir(Bone("f_arm", S))], ids=str)
+def test_a_trill_turns_about_a_fixed_axis_of_the_bone_before(axis: Vec | Dir) -> None:
+    """An axis without bones in it is carried along; how long it is does not matter."""
+    score = sync(
+        block("T", "0", "1", Trill(Bone("palm", S), axis, 2.5, math.radians(6))),
+        block("P", "0", "1", at(TIP, 0, 0, 0)),
+    )
+    animation, plain = played(score, fps=60.0), played(sync(score.blocks[1]), fps=60.0)
+    row = frame_at(animation, 0.5)
+    before, after = (
+        rig().chain.frames(made.clip.coordinates[row : row + 1]).rotations[0]
+        for made in (plain, animation)
+    )
+    bones = rig().bones
+    palm, parent = bones["palm_R"].node, int(rig().chain.parents[bones["palm_R"].origin_node])
+    turn = after[palm] @ before[palm].T
+    if isinstance(axis, Vec):
+        wanted = before[parent] @ np.sign([axis.x, axis.y, axis.z])
+    else:
+        wanted = before[bones["f_arm_R"].node][:, 1]
+    skew = (turn - turn.T) / 2
+    spin = np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
+    # Sine 2π 2.5 · 0.5 = 1: half-way the palm is turned by the whole amplitude.
+    assert abs(spin @ wanted) == pytest.approx(math.sin(math.radians(6)), rel=0.03)
+    assert np.linalg.norm(spin) == pytest.approx(abs(spin @ wanted), rel=0.02)
+
+
 def test_a_look_turns_eyes_and_lids_and_leaves_the_arms_at_rest() -> None:
     score = sync(
         block("GAZE", "0", "1", LookAt(FreePoint(-0.3, 0.1, 1.0))),
@@ -478,6 +507,20 @@ def test_the_report_is_plain_json_with_the_documented_fields() -> None:
         assert row["unit"] in ("m", "rad")
         assert row["met"] == (row["reason"] is None)
     assert report["limits"] == {"max_excess_rad": 0.0, "joint": None}
+
+
+def test_what_overlaps_in_a_key_posture_is_told_with_its_time() -> None:
+    report = played(PATH).report
+    first, *others = report.postures
+    overlaps = Overlap("hand_R", "trunk_3", 0.004), Overlap("index_R_1", "face", 0.002)
+    inside = replace(first, report=replace(first.report, penetration=overlaps))
+    rows = replace(report, postures=(inside, *others)).as_json()["penetration"]
+    assert rows == [
+        {"time_s": float(first.time), "pair": ["hand_R", "trunk_3"], "depth_m": 0.004,
+         "intended": False},
+        {"time_s": float(first.time), "pair": ["index_R_1", "face"], "depth_m": 0.002,
+         "intended": False},
+    ]  # fmt: skip
 
 
 def test_what_cannot_be_reached_is_reported_and_not_an_exception() -> None:

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from azee.clip.bvh import UNITS_M, parse_bvh, read_bvh
-from azee.clip.bvh_hierarchy import BvhError
+from azee.clip.bvh_hierarchy import LONGEST_SHOWN, BvhError
 from azee.clip.bvh_motion import read_motion
 from azee.clip.clip import Clip
 from azee.export.formats.bvh import write_bvh
@@ -131,6 +131,14 @@ def test_a_damaged_file_has_one_clear_message(change: tuple[str, str], said: str
         parse_bvh(FIGURE.replace(*change))
 
 
+@pytest.mark.parametrize("above", [0, 1, 3])
+def test_lines_are_counted_from_the_top_of_the_file(above: int) -> None:
+    for wrong, line in (("OFFSET 0 20 0", 12), ("5 90 0 90", 25)):
+        text = "\n" * above + FIGURE.replace(wrong, wrong.replace("0", "up"))
+        with pytest.raises(BvhError, match=f"line {line + above}: .9?up. is "):
+            parse_bvh(text)
+
+
 @given(st.integers(0, len(FIGURE)), st.integers(0, 60), st.text(max_size=12))
 def test_any_damage_is_read_or_refused(start: int, length: int, instead: str) -> None:
     try:
@@ -206,6 +214,8 @@ def test_where_only_carriers_slide_zero_alone_is_added(hips: str, added: bool) -
         ("0.0083333", 120.0, None),
         (".04167", 24.0, None),
         ("2", 0.5, None),
+        ("5", 0.2, None),
+        ("1e-4", 1e4, None),
         ("60", 60.0, "the frame time 60 is no seconds: 60 frames a second are taken"),
         ("29.97", 29.97, "29.97 frames a second"),
         ("55", 55.0, "55 frames a second"),
@@ -215,6 +225,8 @@ def test_where_only_carriers_slide_zero_alone_is_added(hips: str, added: bool) -
         ("16667", 60.0, "60 frames a second"),
         ("3.33333e-5", 30.0, "30 frames a second"),
         ("1e-8", 100.0, "100 frames a second"),
+        ("1e-6", 1000.0, "1000 frames a second"),
+        ("1.0015e-6", 998.5, "998.5 frames a second"),
         ("7e-12", 30.0, "30 frames a second"),
         ("1e7", 30.0, "30 frames a second"),
         ("-1", 30.0, "says no frame time"),
@@ -243,6 +255,31 @@ def test_units_of_length() -> None:
         assert read.tips[2][1] == pytest.approx(10 * metre)
         assert read.notes == ()
     assert UNITS_M == {"m": 1, "cm": 0.01, "inch": 0.0254, "mm": 0.001, "dm": 0.1, "foot": 0.3048}
+
+
+@pytest.mark.parametrize(
+    ("height_m", "unit"),
+    [(0.99, "foot"), (1.01, "cm"), (2.29, "cm"), (2.31, "mm")],
+)
+def test_children_and_giants_are_people_up_to_a_point(height_m: float, unit: str) -> None:
+    """In centimetres: what is shorter than a child, or taller than anybody, has another unit."""
+    (said,) = (note for note in parse_bvh(scaled(FIGURE, 1.0)).notes if "the figure is" in note)
+    own_m = float(said.split()[-2])
+    read = parse_bvh(scaled(FIGURE, height_m / own_m))
+    (told,) = read.notes
+    if unit == "cm":
+        assert told == f"lengths are taken for cm: the figure is {height_m:.2f} m"
+    else:
+        assert "taken for cm" not in told
+
+
+@pytest.mark.parametrize("length", [1, LONGEST_SHOWN, LONGEST_SHOWN + 1, 400])
+def test_a_message_quotes_no_long_word(length: int) -> None:
+    word = "x" * length
+    with pytest.raises(BvhError) as refused:
+        parse_bvh(FIGURE.replace("OFFSET 0 20 0", f"OFFSET 0 {word} 0"))
+    quoted = word if length <= LONGEST_SHOWN else word[:LONGEST_SHOWN] + "…"
+    assert f"`{quoted}` is not a number" in str(refused.value)
 
 
 def scaled(text: str, factor: float) -> str:

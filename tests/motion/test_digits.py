@@ -25,6 +25,7 @@ from azee_rig.rig import Rig
 Floats = NDArray[np.float64]
 SAME_MM = 0.01
 """What files of millionths of a degree leave."""
+ALL = ("thumb", "index", "middle", "ring", "little")
 THEIRS = {
     "finger1_": "Thumb", "finger2_": "Index", "finger3_": "Middle", "finger4_": "Ring",
     "finger5_": "Pinky", "wrist_": "Hand_", "lowerarm01_": "LowerArm_", "upperarm01_": "UpperArm_",
@@ -61,8 +62,8 @@ def on_the_same_body(rig: Rig, hands: Floats, folder: Path) -> tuple[Retargeted,
         text = text.replace(f"JOINT {ours}", f"JOINT {other}")
     made = retarget(measure_recording(parse_bvh(text)), rig)
     there, here = palm_tips(rig, q), palm_tips(rig, made.clip.coordinates)
+    assert sorted(there) == sorted(here) == sorted(f"{d}_{s}" for d in ALL for s in "LR")
     off = [np.linalg.norm(there[name] - here[name], axis=-1).max() for name in there]
-    assert len(off) == 10
     return made, 1e3 * float(max(off))
 
 
@@ -103,9 +104,9 @@ def test_the_bones_of_a_digit_are_those_of_the_chain(seed: int) -> None:
     random = np.random.default_rng(seed)
     q = random.uniform(c.lower, c.upper, (4, len(c)))
     at = rig.chain.frames(q)
-    for side in SIDES:
+    for side in "LR":
         palm = at.rotations[:, rig.bones[f"palm_{side}"].node]
-        for digit in DIGITS:
+        for digit in ALL:
             fit = DigitFit(rig, f"{digit}_{side}")
             columns = [c.index[name] for name in fit.coordinates]
             nodes = [rig.bones[f"{digit}_{side}_{k}"].node for k in (1, 2, 3)]
@@ -177,6 +178,49 @@ def test_a_fist_is_a_fist(signer: Rig, phalanges: int) -> None:
             np.testing.assert_allclose(three, [0, 40 if phalanges == 3 else 30.6], atol=1e-3)
     shared = [note for note in source.notes if "two joints" in note]
     assert len(shared) == (phalanges == 2)
+
+
+def test_a_joint_beyond_the_last_of_a_digit_tells_its_end_as_an_end_site_does() -> None:
+    text = stick_signer([bent(OPEN), bent(FIST)])
+    numbers = iter(range(99))
+    joints = re.sub(
+        r"End Site \{ (OFFSET [^}]+) \}",
+        lambda m: f"JOINT pad{next(numbers)} {{ {m[1]} CHANNELS 0 }}",
+        text,
+    )
+    plain, other = (measured(written).digits for written in (text, joints))
+    assert len(plain) == len(other) == 10
+    for one, same in zip(plain, other, strict=True):
+        assert one.name == same.name
+        np.testing.assert_allclose(same.frames, one.frames, atol=1e-9)
+
+
+def test_trunk_and_head_are_bent_alike_however_the_whole_body_is_turned() -> None:
+    bends = {"chest": (4.0, 10.0, -6.0), "head": (0.0, -8.0, 12.0)}
+    one, other = {**bends}, {**bends, "hips": (15.0, 20.0, 30.0)}
+    found = measured(stick_signer([bent(OPEN), one, other])).coordinates
+    bones = ("back_1", "back_2", "neck", "head")
+    assert found.keys() == {f"{b}.{way}" for b in bones for way in ("flexion", "axial", "lateral")}
+    for name, angles in found.items():
+        assert abs(angles[1] - angles[0]) > np.radians(0.3), name
+        assert angles[2] == pytest.approx(angles[1], abs=1e-6), name
+
+
+@pytest.mark.parametrize("lacking", ["", "middle", "ring", "middle|ring|little"])
+def test_a_palm_points_to_its_middle_knuckle_or_to_the_mean_of_those_there_are(
+    lacking: str,
+) -> None:
+    text = stick_signer([bent(OPEN)] * 2)
+    if lacking:
+        text = re.sub(rf"JOINT ({lacking})", r"JOINT bump\1", text)
+    there = {f: z for f, z in FINGERS.items() if f not in lacking.split("|")}
+    aside = there.get("middle", float(np.mean([*there.values()])))
+    if len(there) < 2:
+        aside = 0.0  # as the forearm points
+    for s, palm in zip((1.0, -1.0), np.swapaxes(measured(text).palms, 0, 1), strict=True):
+        along = np.array([9.0 * s, 0.0, aside]) / np.hypot(9.0, aside)
+        np.testing.assert_allclose(palm[:, :, 1], [along] * 2, atol=1e-6)
+        np.testing.assert_allclose(palm[:, :, 2], [[0.0, -1.0, 0.0]] * 2, atol=0.1)
 
 
 def test_digits_without_joints_to_bend_are_told_once(signer: Rig) -> None:

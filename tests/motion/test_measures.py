@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from azee.motion.tasks.limbs import Limbs
 from azee.motion.tasks.schedule import bind
 from azee.motion.tasks.timed_task import EarlyEnd
 from azee.quality.measures import block_times, peaks
+from azee.quality.motion_report import constraint_results
 from azee.score.interval import Interval
 from azee.score.score import Block, Group, Key
 from azee_rig.load import load_rig
@@ -68,3 +71,32 @@ def test_a_block_is_held_until_the_first_of_its_constraints_ends() -> None:
             times = row["start_s"], row["end_s"], row["held_until_s"]
             assert row["path"] in (["A"], ["B"])
             assert times == rows["A" if row["path"] == ["A"] else "B"]
+
+
+@pytest.mark.parametrize(
+    ("residual", "reason"),
+    [
+        (0.0, None),
+        (0.5, "met at the keys but not at every frame between them"),
+        (math.inf, "the geometry it names is degenerate"),
+    ],
+)
+def test_what_is_missed_between_keys_has_a_reason(residual: float, reason: str | None) -> None:
+    """A plan whose keys all meet the task, and frames where it is off by so much."""
+    nod = Rotate(Bone("head"), Vec(0, 1, 0), 0.1)
+    rig, score = load_rig(), flatten(Key(F(2), constraints=(nod,)))
+    binding = evaluator(rig, Side.RIGHT).binding
+    schedule = bind(score, rig, binding, Limbs.of(rig.coordinates))
+    monitor = SimpleNamespace(
+        early_ends={},
+        measured_tasks=schedule.all,
+        rows_inside=lambda task, seconds: np.arange(len(seconds)),
+        residual=lambda task, samples: np.array([0.0, residual, 0.0]),
+        unit=lambda task: "rad",
+        tolerance=lambda task: 0.01,
+    )
+    samples = SimpleNamespace(seconds=np.arange(3.0), only=lambda rows: rows)
+    plan: Any = SimpleNamespace(monitor=monitor, samples=samples, postures=())
+    (found,) = constraint_results(schedule, plan, {}, 30.0)
+    assert found.met == (reason is None)
+    assert found.reason == reason

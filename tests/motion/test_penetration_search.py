@@ -122,3 +122,15 @@ def test_what_the_score_asks_to_touch_is_intended_while_it_asks() -> None:
     }
     assert {time_s: p.intended for time_s, p in when.items()} == {0.5: True, 1.4: True, 1.6: False}
     assert not next(p for p in search([CROSSED], [0.5]) if p.pair == pair).intended
+
+
+def test_a_thumb_in_the_chest_is_intended_where_the_score_asks_for_that_touch() -> None:
+    """The deepest of all pairs of the two parts tells, here the thumb's tip in the chest."""
+    thumb_in = posture(
+        arm_R__rotation=80, arm_R__flexion=50, f_arm_R__flexion=135, arm_R__abduction=30
+    )
+    for site, intended in ((Site("T_TIP", S), True), (Site("T_TIP", Side.WEAK), False)):
+        asked = Place(site, SitePoint(Site("ST")), contact=True)
+        found = [p for p in search([thumb_in], [0.5], asked) if p.pair[1] == "trunk"]
+        assert [p.intended for p in found] == [intended]
+        assert found[0].depth_m > 0.05

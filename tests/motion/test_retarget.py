@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
+from itertools import pairwise, product
 from pathlib import Path
 
 import jsonschema
@@ -15,7 +17,7 @@ from azee.cli.main import run
 from azee.clip import retarget as retargeting
 from azee.clip.bvh import parse_bvh, read_bvh
 from azee.clip.clip import Clip
-from azee.clip.retarget import retarget, smoothed
+from azee.clip.retarget import Retargeted, retarget, smoothed
 from azee.clip.retarget_source import RetargetError, measure_clip, measure_recording
 from azee.clips import open_clip
 from azee.export.formats.bvh import write_bvh
@@ -130,6 +132,100 @@ def stick_figure(frames: int, change: tuple[str, str] = ("", ""), step_s: float 
     ]
     head = f"Frames: {frames}\nFrame Time: {step_s:g}\n"
     return text + head + "\n".join(rows) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("share", "palm_deg", "tip_mm", "hands", "tips"),
+    [
+        (0.029, 4.9, 2.9, "in all 3 frames", "within 3 mm"),
+        (0.031, 4.9, 2.9, "in 2 of 3 frames; .* to 3 % of its arm's length and 5° off", "within"),
+        (0.029, 5.1, 2.9, "in 2 of 3 frames", "within 3 mm"),
+        (0.2, 20.0, 3.1, "up to 20 % of its arm's length and 20° off", "up to: index 3 mm"),
+    ],
+)  # fmt: skip
+def test_what_is_kept_is_within_3_percent_5_degrees_and_3_mm(
+    signer: Rig, share: float, palm_deg: float, tip_mm: float, hands: str, tips: str
+) -> None:
+    clip = Clip(np.arange(3) / 30, np.tile(signer.coordinates.idle, (3, 1)), (), np.zeros((3, 0)))
+    off = np.zeros((3, 2))
+    off[1, 0] = 1.0
+    made = Retargeted(
+        clip,
+        off * share * signer.landmarks.arm_m,
+        off * np.radians(palm_deg),
+        {"index_L": off[:, 0] * tip_mm / 1e3},
+    )
+    assert re.search(f"{hands}.*{tips}", made.kept(signer), re.DOTALL)
+
+
+def test_between_ways_the_cheapest_of_all_paths_is_taken(signer: Rig, clip: Clip) -> None:
+    """Of two ways over five frames; the cost is that of errors and of haste between frames."""
+    frames = 5
+    part = Clip(clip.times[:frames], clip.coordinates[10 : 10 + frames], (), np.zeros((frames, 0)))
+    arms = retargeting._Arms(signer, measure_clip(part, signer), part.coordinates)
+    wish = part.coordinates
+    one, other = wish.copy(), wish.copy()
+    columns = arms.columns.ravel()
+    one[:, columns] += np.radians([[0.1], [0.2], [2.0], [2.5], [2.5]])
+    other[:, columns] += np.radians([[2.5], [2.2], [1.6], [0.2], [0.1]])
+    found = arms.steadiest([one, other], wish)
+    ways = np.stack([one, other])
+    cost = np.stack([arms._residual(way, wish)[0] for way in ways])
+    for s, own in enumerate(arms.columns):
+        best, path = min(
+            (
+                sum(cost[w, t, s] for t, w in enumerate(path))
+                + sum(
+                    (((ways[b][t + 1, own] - ways[a][t, own]) / retargeting.HASTE_RAD) ** 2).sum()
+                    for t, (a, b) in enumerate(pairwise(path))
+                ),
+                path,
+            )
+            for path in product((0, 1), repeat=frames)
+        )
+        assert np.isfinite(best)
+        assert len(set(path)) == 2  # it changes between the ways
+        np.testing.assert_array_equal(found[:, own], ways[path, np.arange(frames)][:, own])
+
+
+@pytest.mark.parametrize(("lean_deg", "straight"), [(19.0, True), (21.0, False)])
+def test_a_figure_that_leans_a_little_stands_straight(lean_deg: float, straight: bool) -> None:
+    head = f"OFFSET 0 60 {60 * np.tan(np.radians(lean_deg)):.6f}"
+    upright, leaning = (
+        measure_recording(parse_bvh(stick_figure(2, ("OFFSET 0 60 0", offset))))
+        for offset in ("OFFSET 0 60 0", head)
+    )
+    off = np.abs(leaning.palms - upright.palms).max()
+    assert (off < 1e-6) == straight
+
+
+def test_hands_without_fingers_are_told() -> None:
+    found = measure_recording(parse_bvh(stick_figure(2)))
+    *_, bare, left_out = found.notes
+    assert bare.startswith("no fingers (")
+    assert left_out == "where the body goes and how its legs move is left out"
+    assert isinstance(found.notes, tuple)
+
+
+def test_digits_that_a_body_lacks_are_not_measured(signer: Rig, clip: Clip) -> None:
+    lacking = {f"index_R_{k}" for k in (1, 2, 3)}
+    bones = {name: bone for name, bone in signer.bones.items() if name not in lacking}
+    names = tuple(name.replace("index_R", "bump_R") for name in signer.coordinates.names)
+    body = replace(signer, bones=bones, coordinates=replace(signer.coordinates, names=names))
+    found = {digit.name for digit in measure_clip(clip, body).digits}
+    whole = {digit.name for digit in measure_clip(clip, signer).digits}
+    assert len(whole) == 10
+    assert whole - found == {"index_R"}
+
+
+def test_a_figure_of_any_size_makes_the_same_movement(signer: Rig) -> None:
+    """Told in millimetres, hers is an arm of five centimetres."""
+    text = stick_figure(4)
+    large, small = (measure_recording(parse_bvh(text, unit)) for unit in ("cm", "mm"))
+    assert small.arm_m == pytest.approx(large.arm_m / 10)
+    assert small.arm_m < 0.1
+    made = [retarget(source, signer).clip.coordinates for source in (large, small)]
+    np.testing.assert_allclose(made[1], made[0], atol=1e-4)
 
 
 @pytest.mark.parametrize("frames", [1, 2, 3, 4, 8, 9])

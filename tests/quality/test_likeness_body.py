@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -81,6 +82,9 @@ def test_a_jump_is_not_unasked_where_movement_or_another_posture_is_asked(signer
     assert unasked_turns(k, [buoy, path]) == ()
     assert len(unasked_turns(k, [buoy, other])) == 1
     assert unasked_turns(k, [buoy, other, follows]) == ()
+    for start, end in ((1.005, 1.2), (0.8, 1.004)):  # begins or ends with the jump
+        beside = span(start, end, limb="index_R", limbs=ARM_R, moving=True)
+        assert unasked_turns(k, [buoy, beside, follows]) == ()
     assert unasked_turns(k, [buoy, next_one]) == ()
     assert unasked_turns(k, [span(0.5, 1.5, limb="head")]) == ()
     assert unasked_turns(k, []) == ()
@@ -102,6 +106,9 @@ def test_a_still_head_is_still_for_its_time(signer: Rig) -> None:
     assert longest_stillness_s(k, "head") == pytest.approx(0.75, abs=2 * FRAME)
     assert longest_stillness_s(k, "trunk") < 2 * FRAME
     assert longest_stillness_s(k, "body") < 2 * FRAME
+    for speed, still_s in ((0.19, 1.0), (0.21, 0.0)):
+        drifts = drawn(signer, 1.0, {"head.axial": partial(np.multiply, speed)})
+        assert longest_stillness_s(drifts, "head") == pytest.approx(still_s)
     always = drawn(signer, 2.0, {"neck.flexion": lambda t: 0.1 * np.sin(omega * t)})
     wanted = 2.0 * math.asin(0.2 / (0.1 * omega)) / omega
     assert longest_stillness_s(always, "head") == pytest.approx(wanted, abs=2 * FRAME)
@@ -245,6 +252,8 @@ def test_elbows_of_a_symmetric_sign_are_mirror_images(signer: Rig) -> None:
     assert found.value == pytest.approx(100.0 * k.scale * chord, abs=0.01)
     assert found.at_s == pytest.approx(1.0, abs=FRAME)
     assert elbow_asymmetry_cm(k, both[:1]) is None
+    nod = span(0.6, 0.8, limb="head", constraint=LEVEL)
+    assert elbow_asymmetry_cm(k, [*both, nod]) == found  # the arms hold on meanwhile
     level = forearm_level(Side.LEFT)
     moving = span(0.5, 1.5, limb="palm_L", limbs=ARM_L, constraint=level, moving=True)
     assert elbow_asymmetry_cm(k, [*both, moving]) is None

@@ -11,7 +11,7 @@ from movements import drawn, span
 
 from azee.motion.tasks.signs import Sign
 from azee.quality.kinematics import Kinematics
-from azee.quality.rhythm import blinks, signs_of, signs_per_s
+from azee.quality.rhythm import CLOSED, blinks, signs_of, signs_per_s
 from azee.score.interval import Interval
 from azee.score.score import Block, Call, Group, Key, Score
 from azee_rig.rig import Rig
@@ -91,6 +91,9 @@ def test_blinks_are_counted_and_those_at_boundaries_told(signer: Rig) -> None:
 def test_closed_eyes_and_lids_that_follow_the_eyes_do_not_blink(signer: Rig) -> None:
     assert blinks(lids(signer, (1.0, 1.5)), TWO).times_s == ()
     k = lids(signer, (1.0, 1.2))
+    for share, found in ((1.05 * CLOSED, 1), (0.95 * CLOSED, 0)):
+        nearly = replace(k, unit_weights=share * k.unit_weights)
+        assert len(blinks(nearly, TWO).times_s) == found
     one_eye = k.unit_weights.copy()
     one_eye[:, 0] = 0.0
     assert blinks(replace(k, unit_weights=one_eye), TWO).times_s == ()

@@ -74,6 +74,23 @@ def test_a_target_is_known_by_the_end_of_its_name(name: str) -> None:
     assert list(face.lids) == [name]
 
 
+def test_a_unit_that_a_face_lacks_borrows_of_a_near_one_that_is_not_asked_for_itself() -> None:
+    near, lacking = "browInnerUp", "mh_eyebrows-left-inner-up"
+    table = {
+        "expressed": {"alone": {lacking: 0.8}, "both": {lacking: 0.8, near: 0.6}},
+        "not_expressed": {},
+    }
+    face = map_face([near], {}, DATA, table, {})
+    assert face.expressed["alone"] == pytest.approx({near: 0.4})
+    assert "both" not in face.expressed
+    table["expressed"]["both"][near] = 0.9
+    face = map_face([near], {}, DATA, table, {})
+    assert face.expressed["both"] == pytest.approx({near: 0.9})
+    assert face.partly == ("alone", "both")
+    lids = {"eyeBlinkLeft": ("eye_L.pitch", 1.0)}
+    assert map_face(["eyeBlinkLeft", near], {}, DATA, table, lids).targets == (near, "eyeBlinkLeft")
+
+
 def test_the_end_of_another_word_is_no_name() -> None:
     face = map_face(["Shirt_puff", "toothsmile"], {}, DATA, TABLE, {"jawOpen": ("a", 1.0)})
     assert not face.expressed

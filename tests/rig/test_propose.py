@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import pytest
 from body_families import FAMILIES, Body, make_body
+from numpy.typing import NDArray
 
 from azee_rig.importing.bone_map import BoneMap
 from azee_rig.importing.propose import propose
@@ -94,3 +97,106 @@ def test_a_pelvis_without_a_name_is_where_the_legs_part() -> None:
     found = propose(Tree(names, np.array(body.parents), body.places))
     assert found.root == "Lowest"
     assert found.bones["back_1"] + found.bones["back_2"] == ("Spine", "Spine1", "Spine2")
+
+
+def _renamed(body: Body, names: Mapping[str, str]) -> BoneMap:
+    """Propose for the body with other names for some joints."""
+    assert names.keys() <= set(body.names)
+    new = tuple(names.get(name, name) for name in body.names)
+    return propose(Tree(new, np.array(body.parents), body.places))
+
+
+def test_the_last_of_the_joints_called_spine_is_a_head(body: Body) -> None:
+    found = _renamed(body, {"Neck": "Spine3", "Head": "Spine4"})
+    assert found.family == "names"
+    assert found.bones["head"] == ("Spine4",)
+    assert found.bones["palm_L"] == ("LeftHand",)
+
+
+def test_a_skeleton_without_a_head_stands_on_its_first_joint(body: Body) -> None:
+    found = _only(body, "Leg Foot Head Neck Eye", "Hips")
+    assert "head" not in found.bones
+    assert found.root == "Hips"
+
+
+def test_a_finger_of_a_metacarpal_and_two_joints_has_no_middle_one(body: Body) -> None:
+    found = _renamed(
+        body,
+        {f"LeftHandIndex{k}": f"LeftHandIndex{name}" for k, name in enumerate("M12", 1)}
+        | {"LeftHandIndex1": "LeftHandIndexMetacarpal"},
+    )
+    assert found.bones["index_L_1"] == ("LeftHandIndex1",)
+    assert found.bones["index_L_3"] == ("LeftHandIndex2",)
+    assert "index_L_2" not in found.bones
+    assert found.bones["middle_L_2"] == ("LeftHandMiddle2",)
+
+
+def test_a_finger_of_one_joint_bends_at_its_last(body: Body) -> None:
+    found = _only(body, "LeftHandIndex2 LeftHandIndex3", "Hips")
+    assert found.bones["index_L_3"] == ("LeftHandIndex1",)
+    assert not {"index_L_1", "index_L_2"} & found.bones.keys()
+
+
+@pytest.mark.parametrize(("further", "carried", "tip"), [
+    (1, 1.0, "LeftHandIndex4"), (1, 0.0, "LeftHandIndex4"), (2, 0.0, "LeftHandIndex4"),
+    (2, 1.0, None),
+])  # fmt: skip
+def test_a_fourth_joint_is_a_tip_unless_skin_hangs_on_a_fifth(
+    body: Body, further: int, carried: float, tip: str | None
+) -> None:
+    names, parents, places = list(body.names), list(body.parents), list(body.places)
+    skin = np.ones(len(names) + further)
+    for k in range(4, 4 + further):
+        up = names.index(f"LeftHandIndex{k - 1}")
+        names.append(f"LeftHandIndex{k}")
+        parents.append(up)
+        places.append(places[up] + 0.5 * (places[up] - places[parents[up]]))
+    skin[-1] = carried
+    tree = Tree(tuple(names), np.array(parents), np.array(places))
+    found = propose(tree, carried=skin)
+    assert found.bones["index_L_3"] == ("LeftHandIndex3",)
+    assert found.tips.get("index_L") == tip
+
+
+def test_joints_at_the_wrist_that_only_hand_digits_on_are_none_of_theirs(body: Body) -> None:
+    names: list[str] = []
+    parents: list[str] = []
+    places = []
+    for name, up, place in zip(body.names, body.parents, body.places, strict=True):
+        above = body.names[up] if up >= 0 else ""
+        if name in ("LeftHandThumb1", "LeftHandIndex1", "LeftHandMiddle1"):
+            names.append(name.replace("1", "0"))
+            parents.append(above)
+            places.append(body.places[up])
+            above = names[-1]
+        names.append(name)
+        parents.append(above)
+        places.append(place)
+    numbers = np.array([names.index(up) if up else -1 for up in parents])
+    found = propose(Tree(tuple(names), numbers, np.array(places)))
+    for digit in ("Thumb", "Index", "Middle"):
+        chain = [found.bones[f"{digit.lower()}_L_{k}"] for k in (1, 2, 3)]
+        assert chain == [(f"LeftHand{digit}{k}",) for k in (1, 2, 3)]
+
+
+def test_a_chest_that_carries_the_legs_is_the_pelvis_and_no_part_of_the_back(body: Body) -> None:
+    legs = [n for n, name in enumerate(body.names) if name.endswith("UpLeg")]
+    parents = np.array(body.parents)
+    parents[legs] = body.names.index("Spine2")
+    names = tuple("Spine0" if name == "Hips" else name for name in body.names)
+    order = sorted(range(len(names)), key=lambda j: len(_above(parents, j)))
+    number = {j: i for i, j in enumerate(order)}
+    tree = Tree(
+        tuple(names[j] for j in order),
+        np.array([number.get(int(parents[j]), -1) for j in order]),
+        body.places[order],
+    )
+    found = propose(tree)
+    assert found.root == "Spine2"
+    back = found.bones.get("back_1", ()) + found.bones["back_2"]
+    assert back == ("Spine0", "Spine", "Spine1")
+
+
+def _above(parents: NDArray[np.int64], joint: int) -> list[int]:
+    """All that a joint hangs on."""
+    return [] if parents[joint] < 0 else [joint, *_above(parents, int(parents[joint]))]

@@ -20,6 +20,20 @@ def _bent(rig: Rig, **degrees: float) -> Floats:
     return q
 
 
+def _hand_turned(rig: Rig, side: str, before: Floats, after: Floats) -> float:
+    """Degrees by which the skin of the fingers turns, as one piece, from posture to posture (V,).
+
+    The rotation that fits best (Kabsch 1976): what does not move keeps its shape, too.
+    """
+    names = np.array(rig.skeleton.names)[rig.mesh.joints]
+    of_hand = np.char.startswith(names, "finger") & np.char.endswith(names, f".{side}")
+    whole = np.where(of_hand, rig.mesh.weights, 0.0).sum(axis=1) > 0.999
+    p, q = (rig.skin(rig.pose(posture))[whole] for posture in (before, after))
+    u, _, vt = np.linalg.svd((q - q.mean(axis=0)).T @ (p - p.mean(axis=0)))
+    R = u @ np.diag([1.0, 1.0, np.linalg.det(u @ vt)]) @ vt
+    return float(np.degrees(np.arccos(np.clip((np.trace(R) - 1.0) / 2.0, -1.0, 1.0))))
+
+
 def test_measures_of_a_prism() -> None:
     """A box of 2 × 3 × 5 cm without its ends, whole and with a section across."""
     square = np.array([[0, 0], [2, 0], [2, 3], [0, 3]]) / 100.0
@@ -46,8 +60,10 @@ def test_the_wrist_is_not_wrung(signer: Rig, side: str, degrees: float) -> None:
             limb_sections(signer, signer.skin(signer.pose(q)), q, part, side, places)
             for q in (straight, wrung)
         )
+        assert len(before) == len(places)
         assert np.isfinite(before).all()
         assert (after / before).min() >= least[part], (part, after / before)
+    assert _hand_turned(signer, side, straight, wrung) == pytest.approx(80.0, abs=1e-3)
 
 
 @pytest.mark.parametrize("side", ["L", "R"])
@@ -55,10 +71,13 @@ def test_a_bent_elbow_keeps_its_flesh(signer: Rig, side: str) -> None:
     """Of what 6 cm of both limbs enclose, 90 % is left at every angle up to 145°."""
     sleeve = elbow_sleeve(signer, "top", side, 0.06)
     before = enclosed_volume(signer.mesh.vertices, sleeve)
+    at_bind = np.degrees(signer.coordinates.bind[signer.coordinates.index[f"f_arm_{side}.flexion"]])
     for angle in (0.0, 90.0, 120.0, 145.0):
         q = _bent(signer, **{f"f_arm_{side}__flexion": angle})
         share = enclosed_volume(signer.skin(signer.pose(q)), sleeve) / before
         assert 0.90 <= share < 1.06, angle
+        turned = _hand_turned(signer, side, signer.coordinates.bind, q)
+        assert turned == pytest.approx(abs(angle - at_bind), abs=1e-3)
 
 
 def test_helpers_take_their_share_of_a_bend(signer: Rig) -> None:

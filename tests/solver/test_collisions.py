@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 from stick_body import stick_body
 from tree_sign import S, W
 
+from azee_rig.rig import Capsules, Rig
 from azee_solver.anatomy import anatomy
 from azee_solver.binding import Binding
 from azee_solver.collisions import Obstacles, segment_distance
@@ -16,6 +21,7 @@ from azee_solver.constraint import Constraint, Place
 from azee_solver.geometry import FreePoint, Side, Site, SitePoint
 from azee_solver.winding import distances, winding_numbers
 
+Array = NDArray[np.float64]
 RIG = stick_body()
 BODY = anatomy(RIG.chain, RIG.coordinates)
 
@@ -96,6 +102,108 @@ def test_each_of_two_meant_contacts_allows_its_own_pairs_and_the_wider_one_what_
     for two in ((elbow, chest), (chest, elbow), (elbow, same), (same, elbow)):
         both = plain.reach - obstacles(*two).reach
         np.testing.assert_allclose(both, np.maximum(*(alone[c] for c in two)), atol=1e-12)
+
+
+def with_fingers(along_m: Sequence[float]) -> Rig:
+    """The body with capsules on the index: how far they lie beyond the palm's site."""
+    c, node = RIG.capsules, RIG.chain.names.index("index_L_1")
+    zero = RIG.chain.frames(np.zeros(len(RIG.coordinates)))
+    site, R, o = RIG.sites["PA_L"].point(zero), zero.rotations[node], zero.positions[node]
+    toward = zero.rotations[RIG.bones["palm_L"].node][:, 1]
+    at = np.array([R.T @ (site + x * toward - o) for x in along_m])
+    names = tuple(f"index_{n}" for n in range(len(at)))
+    trunk, first = c.names.index("upper_R"), len(c.names)
+    capsules = Capsules(
+        c.names + names,
+        np.r_[c.node, [node] * len(at)],
+        np.vstack([c.a, at]),
+        np.vstack([c.b, at]),
+        np.r_[c.radius, [0.01] * len(at)],
+        np.vstack([c.pairs, [(trunk, first + n) for n in range(len(at))]]),
+        c.finger_pairs,
+    )
+    return replace(RIG, capsules=capsules)
+
+
+def allowed(rig: Rig, *constraints: Constraint) -> dict[frozenset[str], float]:
+    """How much nearer pairs may come than without constraints, metres; only those that may."""
+    body, binding = anatomy(rig.chain, rig.coordinates), Binding(rig, Side.RIGHT)
+    plain, these = Obstacles(binding, body, ()), Obstacles(binding, body, constraints)
+    names = np.array(rig.capsules.names)
+    less = plain.reach - these.reach
+    return {
+        frozenset(names[pair].tolist()): float(m)
+        for pair, m in zip(these.pairs, less, strict=True)
+        if m != 0.0
+    }
+
+
+ELBOW_IN_PALM = Place(Site("EL", S), SitePoint(Site("PA", W)), contact=True)
+
+
+def test_a_meant_contact_concerns_what_is_at_its_two_sites_and_nothing_else() -> None:
+    """Neither the forearm below the palm nor the one above the elbow is near enough."""
+    assert allowed(RIG, ELBOW_IN_PALM).keys() == {frozenset({"upper_R", "hand_L"})}
+    near = replace(RIG.sites["EL_R"], position=np.array([0.0, 0.31, -0.04]))
+    rig = replace(RIG, sites={**RIG.sites, "EL_R": near})
+    assert allowed(rig, ELBOW_IN_PALM).keys() == {
+        frozenset({"upper_R", "hand_L"}),
+        frozenset({"fore_R", "hand_L"}),
+    }
+
+
+def test_beyond_a_palm_the_farther_a_finger_is_the_less_it_may_overlap() -> None:
+    """Wholly up to 4 cm from its skin, half as much at 7 cm and not at all from 10 cm."""
+    skin_m = (0.03, 0.05, 0.07, 0.09, 0.12)
+    share = (1.0, 5 / 6, 0.5, 1 / 6, 0.0)
+    rig = with_fingers([m + 0.01 for m in skin_m])
+    found = allowed(rig, ELBOW_IN_PALM)
+    at_palm = found[frozenset({"upper_R", "hand_L"})]
+    assert at_palm == pytest.approx(0.01 + 0.009)
+    fingers = [found.get(frozenset({"upper_R", f"index_{n}"}), 0.0) for n in range(5)]
+    np.testing.assert_allclose(fingers, at_palm * np.array(share), atol=1e-9)
+    placed = allowed(rig, Place(Site("EL", S), SitePoint(Site("PA", W))))
+    assert placed.keys() == {frozenset({"upper_R", "hand_L"})}
+
+
+def test_fingers_side_by_side_need_be_no_farther_apart_than_when_straight() -> None:
+    """Their axes are 20 mm apart, their radii 13 mm each."""
+    c, names = RIG.capsules, RIG.chain.names
+    nodes = [names.index("index_R_2"), names.index("middle_R_2")]
+    ends = np.zeros((2, 3)), np.array([[0.0, 0.03, 0.0]] * 2)
+    first = len(c.names)
+    capsules = Capsules(
+        (*c.names, "index", "middle"),
+        np.r_[c.node, nodes],
+        np.vstack([c.a, ends[0]]),
+        np.vstack([c.b, ends[1]]),
+        np.r_[c.radius, 0.013, 0.013],
+        c.pairs,
+        np.array([[first, first + 1]]),
+    )
+    rig = replace(RIG, capsules=capsules)
+    these = Obstacles(Binding(rig, Side.RIGHT), anatomy(rig.chain, rig.coordinates), ())
+    assert these.reach[-1] == pytest.approx(0.020)
+    apart = replace(rig, capsules=replace(capsules, radius=np.r_[c.radius, 0.007, 0.007]))
+    these = Obstacles(Binding(apart, Side.RIGHT), anatomy(rig.chain, rig.coordinates), ())
+    assert these.reach[-1] == pytest.approx(0.014)
+
+
+def test_arms_keep_clear_of_the_trunk_by_a_margin_and_of_each_other_by_none() -> None:
+    """Also where the zero pose has them overlap: that is forgiven fingers alone."""
+    c = RIG.capsules
+    wide = np.where(np.array(c.names) == "trunk_1", 0.3, c.radius)
+    rig = replace(RIG, capsules=replace(c, radius=wide))
+    these = Obstacles(Binding(rig, Side.RIGHT), BODY, ())
+    for reach, (i, j) in zip(these.reach, these.pairs, strict=True):
+        limbs = [c.names[k].startswith(("upper", "fore", "hand")) for k in (i, j)]
+        margin = 0.0 if all(limbs) else 0.004
+        assert reach == pytest.approx(wide[i] + wide[j] + margin), (c.names[i], c.names[j])
+    at_zero = rig.chain.frames(np.zeros(len(rig.coordinates)))
+    n = pair(these, "hand_R", "trunk_1")
+    k = c.names.index("hand_R")
+    hand = at_zero.rotations[c.node[k]] @ c.a[k] + at_zero.positions[c.node[k]]
+    assert np.linalg.norm(hand - [0.0, 1.07, 0.0]) < these.reach[n]
 
 
 def test_two_sites_at_one_place_are_meant_to_touch() -> None:

@@ -268,6 +268,16 @@ def test_out_of_reach_is_the_nearest_pose_and_says_by_how_much() -> None:
     assert math.degrees(math.acos(min(1.0, stretched))) < 1
 
 
+def test_a_direction_that_no_limit_leaves_free_is_out_of_reach_by_an_angle() -> None:
+    """The head cannot stand upside down, whichever of its limits is widened."""
+    report = run(along(DIR, Bone("head"), Vec(0.0, -1.0, 0.0)))
+    residual = report.constraints[0].residual
+    assert residual > math.radians(60)
+    assert reason(report).startswith("out of reach by ")
+    assert reason(report).endswith("°")
+    assert float(reason(report).split()[-1][:-1]) == pytest.approx(math.degrees(residual), abs=1.0)
+
+
 def test_a_limit_in_the_way_is_named() -> None:
     report = run(Rotate(Bone("head"), UP, math.radians(50)))
     assert reason(report) == (
@@ -397,6 +407,9 @@ def test_a_redundant_set_is_met() -> None:
 def test_reasons_can_be_left_out() -> None:
     report = run(Place(Site("I_TIP", S), WorldPoint(0.0, 1.0, 9.0)), explain=False)
     assert reason(report) == "not looked into"
+    assert report.explain_s == 0.0
+    looked_into = run(Place(Site("I_TIP", S), WorldPoint(0.0, 1.0, 9.0)))
+    assert looked_into.explain_s > 0.0
 
 
 # Laws -----------------------------------------------------------------------------------------

@@ -60,7 +60,7 @@ class Stage:
     tolerance: float
 
 
-STAGES = (Stage(1e-3, 1e-3, 6, 0.1), Stage(1.0, 1.0, 12, 0.02), Stage(4.0, 0.1, 6, 0.01))
+STAGES = (Stage(1e-3, 1e-3, 6, 0.1), Stage(1.0, 1.0, 8, 0.05), Stage(4.0, 0.1, 4, 0.03))
 """Soft first: a stiff start from a reference that misses by a hand's length ends in bad minima."""
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from body_families import FAMILIES, Body, Family, declare, make_body
+from body_families import FAMILIES, Body, Family, declare, make_body, with_sleeves
 
 from azee_rig.importing.bone_map import BONES
 from azee_rig.importing.importer import import_body, propose_bones
@@ -65,6 +65,31 @@ def test_a_word_that_few_joints_share_is_no_prefix() -> None:
     readings = read_names(names)
     assert readings == [read_name(name) for name in names]
     assert readings[4] == Reading("", "", "")
+
+
+@pytest.mark.slow
+def test_arms_held_out_make_no_wider_trunk(tmp_path: Path) -> None:
+    widths = []
+    for pose in "ta":
+        path = make_body(FAMILIES["mixamo"], pose=pose).file().write(tmp_path / "body.glb")
+        capsules = import_body(path, pose).rig.capsules
+        trunk = [k for k, name in enumerate(capsules.names) if name.startswith("trunk_")]
+        widths.append(capsules.b[trunk, 0] + capsules.radius[trunk])
+    held_out, lowered = widths
+    np.testing.assert_allclose(held_out, lowered, atol=0.006)
+
+
+@pytest.mark.slow
+def test_capsules_are_fitted_to_arms_not_to_wide_sleeves(tmp_path: Path) -> None:
+    bare = make_body(FAMILIES["mixamo"])
+    radii = []
+    for body in (bare, with_sleeves(bare, 2.5)):
+        capsules = import_body(body.file().write(tmp_path / "body.glb"), "body").rig.capsules
+        radii.append({n: float(capsules.radius[k]) for k, n in enumerate(capsules.names)})
+    plain, dressed = radii
+    assert {n for n in plain if abs(dressed[n] - plain[n]) > 1e-9} == {"forearm_L", "forearm_R"}
+    for side in "LR":
+        assert dressed[f"forearm_{side}"] == pytest.approx(plain[f"forearm_{side}"], rel=0.1)
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ lowered until the others are met.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
@@ -23,6 +24,10 @@ Order = Callable[[int], tuple[Fraction, int, int]]
 GIVEN_UP_PULL = 0.1
 """How steeply the cost of a constraint that is given up falls with its residual: a tenth
 as steeply as that of one that is missed by a tolerance."""
+
+
+TAKING_BACK = 4
+"""Halvings of the interval, of logarithms of factors, in which the greatest harmless one lies."""
 
 
 def give_up_later_tasks(
@@ -49,3 +54,36 @@ def give_up_later_tasks(
         if not other.unmet():
             given_up, result = fewer, other
     return given_up, result
+
+
+def take_back(
+    result: Result,
+    given_up: Mapping[int, float],
+    factors: Mapping[int, float],
+    again: Again,
+    is_clear: Callable[[Result], bool],
+) -> tuple[dict[int, float], Result]:
+    """Return greater factors for the tasks given up, as far as the others stay met with them.
+
+    With little weight a task gives way to comfort too: one that the body keeps from being met by
+    two tolerances misses by ten.
+
+    Args: result: of `give_up_later_tasks`, with its `given_up`. factors: of tasks given up before
+        it, which stay. is_clear: whether a result does not lie in the body.
+    """
+    found = dict(given_up)
+    if result.unmet():
+        return found, result
+    deepest_m = result.overlap_m
+    for i in sorted(given_up.keys() - factors.keys()):
+        low, high = math.log(found[i]), 0.0
+        for _ in range(TAKING_BACK):
+            middle = 0.5 * (low + high)
+            trial = again({**found, i: math.exp(middle)}, result.q)
+            if trial.unmet() or not (trial.overlap_m <= deepest_m or is_clear(trial)):
+                high = middle
+                continue
+            low = middle
+            if trial.ratios[i] < result.ratios[i]:
+                found[i], result = math.exp(middle), trial
+    return found, result

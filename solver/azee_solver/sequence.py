@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver.group_search import solve_group
+from azee_solver.group_search import is_clear, solve_group
 from azee_solver.groups import Group, grouped
 from azee_solver.moment import Moment
-from azee_solver.priorities import give_up_later_tasks
+from azee_solver.priorities import give_up_later_tasks, take_back
 from azee_solver.problems import Reach
 from azee_solver.relaxed import RelaxedProblem
 from azee_solver.result import Result
@@ -89,7 +89,7 @@ class GroupSequence:
     def _without_later_tasks(
         self, group: Group, q: Array, unsettled: frozenset[int], result: Result
     ) -> Result:
-        """Give up later tasks of a group until the earlier ones are met, and finish."""
+        """Give up later tasks of a group as far as the earlier ones need it, and finish."""
         tasks = self.moment.tasks_of(group)
 
         def again(factors: Mapping[int, float], begin: Array, *, finish: bool = False) -> Result:
@@ -110,6 +110,12 @@ class GroupSequence:
         factors, found = give_up_later_tasks(
             result, given_up, again, lambda i: self.moment.tasks[i].order
         )
+        if factors != given_up:
+            body = self.moment.body
+            near = body.obstacles.for_problem(group.free, unsettled - group.free)
+            factors, found = take_back(
+                found, factors, given_up, again, lambda r: is_clear(body, near, r)
+            )
         if found.unmet() or factors != given_up:
             found = again(factors, found.q, finish=True)
         return found

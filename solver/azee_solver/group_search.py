@@ -107,19 +107,6 @@ def solve_group(
     return best
 
 
-def is_clear(body: Body, collisions: Collisions, result: Result) -> bool:
-    """Whether nothing overlaps but the margin around the body.
-
-    The margin is a wish: reports leave it out (ADR 27).
-    """
-    tolerated_m = body.options.overlap_m
-    if result.overlap_m > tolerated_m + MARGIN_M:
-        return False
-    return result.overlap_m <= tolerated_m or bool(
-        depths(body.rig, collisions, result.q).max(initial=0.0) <= tolerated_m
-    )
-
-
 class GroupSearch:
     """The objective of a group laid out for the kernels, and descents on it."""
 
@@ -204,8 +191,16 @@ class GroupSearch:
         return best
 
     def suffices(self, result: Result) -> bool:
-        """Whether nothing is unmet and nothing overlaps but the margin around the body."""
-        return not result.unmet() and is_clear(self.body, self.collisions, result)
+        """Whether nothing is unmet and nothing overlaps but the margin around the body.
+
+        The margin is a wish: reports leave it out (ADR 27).
+        """
+        tolerated_m = self.body.options.overlap_m
+        if result.unmet() or result.overlap_m > tolerated_m + MARGIN_M:
+            return False
+        return result.overlap_m <= tolerated_m or bool(
+            depths(self.body.rig, self.collisions, result.q).max(initial=0.0) <= tolerated_m
+        )
 
     def finished(self, result: Result) -> Result:
         """Descend from a result until nothing is gained, so that near targets end in near postures.

@@ -61,26 +61,30 @@ def take_back(
     given_up: Mapping[int, float],
     factors: Mapping[int, float],
     again: Again,
-    is_clear: Callable[[Result], bool],
+    begin: Array,
+    *,
+    deepest_m: float,
 ) -> tuple[dict[int, float], Result]:
     """Return greater factors for the tasks given up, as far as the others stay met with them.
 
-    With little weight a task gives way to comfort too: one that the body keeps from being met by
-    two tolerances misses by ten.
+    With little weight a task counts less than comfort too: one that the body keeps from being met
+    by two tolerances misses by ten, and a thumb flips to its other side. So each try begins where
+    the task still had its weight.
 
     Args: result: of `give_up_later_tasks`, with its `given_up`. factors: of tasks given up before
-        it, which stay. is_clear: whether a result does not lie in the body.
+        it, which stay. begin: (V,) the posture before any was given up. deepest_m: overlap that is
+        better than a miss.
     """
     found = dict(given_up)
     if result.unmet():
         return found, result
-    deepest_m = result.overlap_m
+    deepest_m = max(deepest_m, result.overlap_m)
     for i in sorted(given_up.keys() - factors.keys()):
         low, high = math.log(found[i]), 0.0
         for _ in range(TAKING_BACK):
             middle = 0.5 * (low + high)
-            trial = again({**found, i: math.exp(middle)}, result.q)
-            if trial.unmet() or not (trial.overlap_m <= deepest_m or is_clear(trial)):
+            trial = again({**found, i: math.exp(middle)}, begin)
+            if trial.unmet() or trial.overlap_m > deepest_m:
                 high = middle
                 continue
             low = middle

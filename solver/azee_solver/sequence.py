@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from azee_solver.group_search import is_clear, solve_group
+from azee_solver.group_search import DEEP, solve_group
 from azee_solver.groups import Group, grouped
 from azee_solver.moment import Moment
 from azee_solver.priorities import give_up_later_tasks, take_back
@@ -111,10 +111,9 @@ class GroupSequence:
             result, given_up, again, lambda i: self.moment.tasks[i].order
         )
         if factors != given_up:
-            body = self.moment.body
-            near = body.obstacles.for_problem(group.free, unsettled - group.free)
+            deepest_m = DEEP * self.moment.options.overlap_m
             factors, found = take_back(
-                found, factors, given_up, again, lambda r: is_clear(body, near, r)
+                found, factors, given_up, again, result.q, deepest_m=deepest_m
             )
         if found.unmet() or factors != given_up:
             found = again(factors, found.q, finish=True)

@@ -85,8 +85,14 @@ def test_one_that_misses_alone_keeps_its_weight() -> None:
     assert result is lonely
 
 
+BEFORE = np.full(1, 7.0)
+
+
 class Pull:
-    """A task that misses by less the more its weight, until another misses or the body is hit."""
+    """A task that misses by less the more its weight, until another misses or the body is hit.
+
+    From anywhere but BEFORE it is found on its other side, where it misses by much.
+    """
 
     def __init__(self, *, bound: float, deep: float) -> None:
         self.bound, self.deep = bound, deep
@@ -95,7 +101,8 @@ class Pull:
         factor = factors[1]
         other = 0.5 if factor <= self.bound else 2.0
         overlap_m = 0.001 if factor <= self.deep else 0.005
-        ratios = {0: other, 1: 2.0 / factor, 2: 9.0}
+        missed = 2.0 / factor if begin is BEFORE else 300.0
+        ratios = {0: other, 1: missed, 2: 9.0}
         return Result(Q, ratios, other**2, overlap_m, frozenset(), frozenset(factors))
 
 
@@ -103,9 +110,7 @@ class Pull:
 def test_a_task_is_given_up_no_further_than_the_others_need(bound: float, deep: float) -> None:
     again, given = Pull(bound=bound, deep=deep), {2: 0.01}
     little = again({1: 0.01, **given}, Q)
-    factors, result = take_back(
-        little, {1: 0.01, **given}, given, again, lambda r: r.overlap_m < 0.003
-    )
+    factors, result = take_back(little, {1: 0.01, **given}, given, again, BEFORE, deepest_m=0.003)
     assert 0.25 < factors[1] <= 0.4
     assert result.ratios[1] == 2.0 / factors[1]
     assert not result.unmet()
@@ -119,7 +124,7 @@ def test_nothing_is_taken_back_where_giving_up_did_not_help() -> None:
     def never(factors: Mapping[int, float], begin: NDArray[np.float64]) -> Result:
         raise AssertionError
 
-    assert take_back(missed, {1: 0.1}, {}, never, lambda r: True) == ({1: 0.1}, missed)
+    assert take_back(missed, {1: 0.1}, {}, never, Q, deepest_m=0.003) == ({1: 0.1}, missed)
 
 
 @pytest.mark.parametrize(

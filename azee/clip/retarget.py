@@ -2,8 +2,8 @@
 
 Angles cannot be copied between bodies: arms of other lengths miss what they touched. So the source
 is measured in the frame of its chest: the wrists from the middle of the shoulders, in arm lengths,
-so that hands that touch still touch; the orientation of the palms; roughly the elbows; the bending
-of every finger. Trunk, neck and head turn as those of the source.
+so that hands that touch still touch; the orientation of the palms; the elbows, as near as hands
+allow; the bending of every finger. Trunk, neck and head turn as those of the source.
 
 Damped Gauss–Newton within the limits finds the postures of all frames together: first each frame by
 itself, then close to the smoothed result, so that free coordinates do not jump.
@@ -36,7 +36,7 @@ ARM = (
     "palm_{S}.deviation",
 )  # fmt: skip
 """Coordinates of an arm."""
-WRIST_M, PALM_RAD, ELBOW_M, WISH_RAD = 0.004, np.radians(1.0), 0.15, np.radians(60.0)
+WRIST_M, PALM_RAD, ELBOW_M, WISH_RAD = 0.004, np.radians(1.0), 0.02, np.radians(60.0)
 """Scales of equal weight: errors of place, of turn, of the elbow, and of the wanted posture."""
 HASTE_RAD = np.radians(1.0)
 """A turn from one frame to the next that weighs as much, where there is a choice of ways."""

@@ -47,15 +47,16 @@ class BroadPhase:
     """Pairs of capsules in runs.
 
     capsules: (K,) of the rig, those that are used. pairs: (P, 2) indices into them. reach: (P,)
-    how near their axes may come, metres. ball_node: (B,) the node that carries a ball.
-    ball_centre: (B, 3) in its frame. runs: (R, 4) two balls, the first pair and one past the
-    last; twice the same ball where both capsules lie in it. run_reach: (R,) balls whose centres
-    are farther apart than this hold no pair that overlaps.
+    how near their axes may come, metres. margin: (P,) the part of that which is a wish.
+    ball_node: (B,) the node that carries a ball. ball_centre: (B, 3) in its frame. runs: (R, 4) two
+    balls, the first pair and one past the last; twice the same ball where both capsules lie in it.
+    run_reach: (R,) balls whose centres are farther apart than this hold no pair that overlaps.
     """
 
     capsules: Ints
     pairs: Ints
     reach: Array
+    margin: Array
     ball_node: Ints
     ball_centre: Array
     runs: Ints
@@ -96,6 +97,7 @@ def broad_phase(rig: Rig, collisions: Collisions) -> BroadPhase:
         capsules,
         np.searchsorted(capsules, pairs),
         reach,
+        np.broadcast_to(collisions.margin, reach.shape)[order],
         balls.node[used],
         balls.centre[used],
         np.stack([*np.searchsorted(used, (one, other)), first, last], axis=1),

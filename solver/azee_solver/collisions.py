@@ -41,17 +41,38 @@ touches."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Surroundings:
+    """Capsules around a site.
+
+    share: (K,) how far each takes part in what the site touches, 0 to 1. out_m: (K,) how far the
+    capsules of its bone stand out beyond the skin at the site, metres.
+    """
+
+    share: Array
+    out_m: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Contact:
     """Two sites that are meant to touch.
 
-    first, second: (K,) how far each capsule takes part on either side, 0 to 1. allowed_m: how far
-    the capsules stand out beyond the skin at the two sites, so that they overlap by as much when
-    the skins touch, and what is forgiven besides.
+    first, second: what is around the two sites. slack_m: what is forgiven besides what the
+    capsules stand out by.
     """
 
-    first: Array
-    second: Array
-    allowed_m: float
+    first: Surroundings
+    second: Surroundings
+    slack_m: float
+
+    def allowed_m(self, i: NDArray[np.int64], j: NDArray[np.int64]) -> Array:
+        """How deep pairs of capsules (P,) may overlap, metres: as they do when the skins touch."""
+        one, other = self.first, self.second
+
+        def either(a: Surroundings, b: Surroundings) -> Array:
+            share = a.share[i] * b.share[j]
+            return np.asarray(share * (a.out_m[i] + b.out_m[j] + self.slack_m))
+
+        return np.maximum(either(one, other), either(other, one))
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,10 +154,7 @@ def _clearance(rig: Rig, anatomy: Anatomy, meant: tuple[tuple[str, str, bool], .
     allowed = np.zeros(len(pairs))
     for one, other, called in meant:
         contact = _contact(rig, anatomy, one, other, called=called)
-        share = np.maximum(
-            contact.first[i] * contact.second[j], contact.first[j] * contact.second[i]
-        )
-        allowed = np.maximum(allowed, share * contact.allowed_m)
+        allowed = np.maximum(allowed, contact.allowed_m(i, j))
     reach = frozen(radii + margin - allowed, np.float64)
     return _Clearance(anatomy, pairs, reach, margin, rig.capsules.node[pairs], relative)
 
@@ -166,23 +184,21 @@ def _meant(constraints: Iterable[Constraint]) -> Iterator[tuple[Site, Site, bool
 def _contact(rig: Rig, anatomy: Anatomy, one: str, other: str, *, called: bool) -> Contact:
     palms = [called and rig.sites[name].bone.startswith("palm") for name in (one, other)]
     slack = PALM_SLACK_M if any(palms) else CALLED_SLACK_M if called else SLACK_M
-    near, depth = zip(
-        *(
-            _around(rig, name, anatomy, wide=palm)
-            for name, palm in zip((one, other), palms, strict=True)
-        ),
-        strict=True,
+    first, second = (
+        _around(rig, name, anatomy, wide=palm)
+        for name, palm in zip((one, other), palms, strict=True)
     )
-    return Contact(near[0], near[1], sum(depth) + slack)
+    return Contact(first, second, slack)
 
 
 @lru_cache(maxsize=256)
-def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> tuple[Array, float]:
-    """How far capsules take part in contacts of a site, (K,), and how far they stand out there.
+def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> Surroundings:
+    """Find the capsules that take part in contacts of a site, and how far they stand out there.
 
-    Capsules of the site's own bone, and near ones of its neighbours. Wide: also those of all bones
-    beyond, such as the fingers of a palm, the farther the less. Which are near is told at the zero
-    pose; how far they stand out is the most of that, idle and joints bent: a bent elbow is flatter.
+    Those of the site's own bone, and near ones of its neighbours; a site of a joint, such as an
+    elbow, has the bones on both sides as neighbours. Wide: also those of all bones beyond, such as
+    the fingers of a palm, the farther the less. Which are near is told at the zero pose; how far
+    they stand out is the most of that, idle and joints bent: a bent elbow is flatter.
     """
     site, capsules, parents = rig.sites[name], rig.capsules, rig.chain.parents
     c = rig.coordinates
@@ -195,16 +211,20 @@ def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> tuple[Array
         )
         for frames in map(rig.chain.frames, (np.zeros(len(c)), c.idle, BENT * c.upper))
     )
+    above = parents[capsules.node]
     own = capsules.node == site.node
-    beside = (capsules.node == parents[site.node]) | (parents[capsules.node] == site.node)
+    beside = (capsules.node == parents[site.node]) | (above == site.node)
+    if site.node not in {bone.node for bone in rig.bones.values()}:
+        beside |= above == parents[site.node]
     near = own | (beside & (depth > -NEAR_M))
+    out = np.zeros(len(parents))
+    np.maximum.at(out, capsules.node[near], np.max([depth, *bent], axis=0)[near])
     share = near.astype(np.float64)
     if wide:
         beyond = anatomy.paths[capsules.node, site.node]
         fading = np.clip((FAR_M + depth) / (FAR_M - BESIDE_M), 0.0, 1.0)
         share = np.maximum(share, np.where(beyond, fading, 0.0))
-    out = np.max([depth, *bent], axis=0)[near]
-    return share, max(0.0, float(out.max(initial=0.0)))
+    return Surroundings(share, np.where(near, out[capsules.node], out.max()))
 
 
 @lru_cache(maxsize=4)

@@ -10,6 +10,9 @@ their weights, where few evaluations lead to the right part of the floor, then a
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -50,6 +53,18 @@ def refined(program: Program, x: Array, options: SolveOptions) -> Array:
     return program.gauss_newton(
         x, rounds=options.gauss_newton_rounds, tolerance=options.gauss_newton_tolerance
     )
+
+
+@contextmanager
+def without_margin(program: Program) -> Iterator[None]:
+    """Leave out the margin around trunk and head for as long as a `with` lasts."""
+    reach = program.section(block.PAIR_REACH)
+    wished = reach.copy()
+    reach -= program.layout.margin
+    try:
+        yield
+    finally:
+        reach[:] = wished
 
 
 class scaled_weights:  # noqa: N801 - used as a statement

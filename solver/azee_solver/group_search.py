@@ -28,7 +28,13 @@ from azee_solver.body import Body
 from azee_solver.broadphase import Collisions
 from azee_solver.collisions import MARGIN_M, depths
 from azee_solver.constraint import Look, LookAt, Place
-from azee_solver.descent import refined, scaled_weights, soft_descent, stiff_descent
+from azee_solver.descent import (
+    refined,
+    scaled_weights,
+    soft_descent,
+    stiff_descent,
+    without_margin,
+)
 from azee_solver.footprint import part_constrained
 from azee_solver.program import Program, Row
 from azee_solver.residuals import Residuals, lower
@@ -259,16 +265,23 @@ class GroupSearch:
             return stiff_descent(self.program, through, self.body.options)
 
     def _near_miss_refined(self, result: Result) -> Result:
-        """Descend once more with little posture cost, if a small miss may come from that."""
+        """Descend once more with little posture cost, if a small miss may come from that.
+
+        If the body is in the way too, descend without the margin around it, which is a wish.
+        """
         if not 1.0 < result.worst() < NEAR_MISS:
             return result
         x, options = result.q[self.program.free], self.body.options
         posture = self._posture_factors(NEAR_MISS_POSTURE)
         with scaled_weights(self.program, posture=posture, overlap=NEAR_MISS_OVERLAP):
             closer = self.measured(refined(self.program, x, options))
-        if closer.overlap_m > max(result.overlap_m, DEEP * options.overlap_m):
+        if closer.overlap_m <= max(result.overlap_m, DEEP * options.overlap_m):
+            result = min(result, closer, key=lambda r: merit(r, options))
+        if not result.unmet() or not excess(result, options):
             return result
-        return min(result, closer, key=lambda r: merit(r, options))
+        with without_margin(self.program), scaled_weights(self.program, posture=posture):
+            x = refined(self.program, result.q[self.program.free], options)
+        return min(result, self.measured(x), key=lambda r: merit(r, options))
 
     def _posture_factors(self, factor: float) -> Array:
         """Factors of posture and joint-limit cost per free coordinate; handshapes keep theirs."""

@@ -58,6 +58,7 @@ class Layout:
         self.upper: Array = frozen(coordinates.upper[self.free], np.float64)
         phase = broad_phase(rig, structure.collisions)
         node = rig.capsules.node[phase.capsules]
+        self.margin: Array = phase.margin
         self.rows: Ints = np.array(structure.rows, dtype=np.int64).reshape(-1, 3)
         codes = np.array(structure.codes, dtype=np.int64).reshape(-1, 4)
         n, entries, nodes = len(self.free), len(codes), len(chain.names)

@@ -7,6 +7,7 @@ lowered until the others are met.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -23,6 +24,10 @@ Order = Callable[[int], tuple[Any, ...]]
 GIVEN_UP_PULL = 0.1
 """How steeply the cost of a constraint that is given up falls with its residual: a tenth
 as steeply as that of one that is missed by a tolerance."""
+
+
+TAKING_BACK = 4
+"""Halvings of the interval, of logarithms of factors, in which the greatest harmless one lies."""
 
 
 def give_up_later_tasks(
@@ -49,3 +54,40 @@ def give_up_later_tasks(
         if not other.unmet():
             given_up, result = fewer, other
     return given_up, result
+
+
+def take_back(
+    result: Result,
+    given_up: Mapping[int, float],
+    factors: Mapping[int, float],
+    again: Again,
+    begin: Array,
+    *,
+    deepest_m: float,
+) -> tuple[dict[int, float], Result]:
+    """Return greater factors for the tasks given up, as far as the others stay met with them.
+
+    With little weight a task counts less than comfort too: one that the body keeps from being met
+    by two tolerances misses by ten, and a thumb flips to its other side. So each try begins where
+    the task still had its weight.
+
+    Args: result: of `give_up_later_tasks`, with its `given_up`. factors: of tasks given up before
+        it, which stay. begin: (V,) the posture before any was given up. deepest_m: overlap that is
+        better than a miss.
+    """
+    found = dict(given_up)
+    if result.unmet():
+        return found, result
+    deepest_m = max(deepest_m, result.overlap_m)
+    for i in sorted(given_up.keys() - factors.keys()):
+        low, high = math.log(found[i]), 0.0
+        for _ in range(TAKING_BACK):
+            middle = 0.5 * (low + high)
+            trial = again({**found, i: math.exp(middle)}, begin)
+            if trial.unmet() or trial.overlap_m > deepest_m:
+                high = middle
+                continue
+            low = middle
+            if trial.ratios[i] < result.ratios[i]:
+                found[i], result = math.exp(middle), trial
+    return found, result

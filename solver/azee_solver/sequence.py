@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_solver.comfort import eased
-from azee_solver.group_search import solve_group
+from azee_solver.group_search import DEEP, solve_group
 from azee_solver.groups import Group, grouped
 from azee_solver.moment import Moment
-from azee_solver.priorities import give_up_later_tasks
+from azee_solver.priorities import give_up_later_tasks, take_back
 from azee_solver.problems import Reach
 from azee_solver.relaxed import RelaxedProblem
 from azee_solver.result import Result
@@ -97,7 +97,7 @@ class GroupSequence:
     def _without_later_tasks(
         self, group: Group, q: Array, unsettled: frozenset[int], result: Result
     ) -> Result:
-        """Give up later tasks of a group until the earlier ones are met, and finish."""
+        """Give up later tasks of a group as far as the earlier ones need it, and finish."""
         tasks = self.moment.tasks_of(group)
 
         def again(factors: Mapping[int, float], begin: Array, *, finish: bool = False) -> Result:
@@ -116,6 +116,11 @@ class GroupSequence:
 
         given_up = self._given_up(group)
         factors, found = give_up_later_tasks(result, given_up, again, self.moment.precedence)
+        if factors != given_up:
+            deepest_m = DEEP * self.moment.options.overlap_m
+            factors, found = take_back(
+                found, factors, given_up, again, result.q, deepest_m=deepest_m
+            )
         if found.unmet() or factors != given_up:
             found = again(factors, found.q, finish=True)
         return found

@@ -383,14 +383,14 @@ def test_no_joint_goes_from_limit_to_limit_in_a_frame(signer: Rig) -> None:
     assert np.degrees(np.abs(np.diff(q, axis=0)).max()) < 60
 
 
-def test_elbows_are_about_where_they_were(signer: Rig) -> None:
+def test_elbows_of_the_same_body_are_where_they_were(signer: Rig) -> None:
     """Wrist and palm leave the arm free to turn about the line from shoulder to wrist."""
     source = measure_clip(posed(signer, 2, {
         "arm_{}.flexion": 30, "arm_{}.abduction": 70, "arm_{}.rotation": 80,
         "f_arm_{}.flexion": 110, "f_arm_{}.pronation": 60,
     }), signer)  # fmt: skip
     made = measure_clip(retarget(source, signer).clip, signer)
-    assert np.linalg.norm(made.elbows - source.elbows, axis=-1).max() < 0.035
+    assert np.linalg.norm(made.elbows - source.elbows, axis=-1).max() < 0.004
     assert np.linalg.norm(made.wrists - source.wrists, axis=-1).max() < 0.001
 
 

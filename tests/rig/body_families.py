@@ -7,7 +7,7 @@ other axes, on the joints that a family has. What the importer must find is know
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
@@ -371,6 +371,20 @@ def make_body(
         parts,
         units,
     )
+
+
+def with_sleeves(body: Body, widest: float) -> Body:
+    """Widen a body's forearms towards the wrists like bell sleeves, so many times at the end."""
+    vertices = body.vertices.copy()
+    for side in "LR":
+        joint, hand = (body.names.index(body.bones[f"{b}_{side}"][0]) for b in ("f_arm", "palm"))
+        elbow, forearm = body.places[joint], body.places[hand] - body.places[joint]
+        own = body.weights[:, joint] > 0.5 * body.weights.sum(axis=1)
+        along = (vertices[own] - elbow) @ forearm / (forearm @ forearm)
+        foot = elbow + along[:, None] * forearm
+        factor = 1.0 + (widest - 1.0) * np.clip(along, 0.0, 1.0) ** 2
+        vertices[own] = foot + factor[:, None] * (vertices[own] - foot)
+    return replace(body, vertices=vertices)
 
 
 def declare(file: GlbFile, body: Body, version: int) -> GlbFile:

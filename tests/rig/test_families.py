@@ -6,12 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from body_families import FAMILIES, Body, Family, declare, make_body
+from body_families import FAMILIES, Body, Family, declare, make_body, with_sleeves
 
+import azee
 from azee_rig.importing.bone_map import BONES
+from azee_rig.importing.folder import write_folder
 from azee_rig.importing.importer import import_body, propose_bones
 from azee_rig.importing.names import Reading, read_name, read_names
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 POSES = [("t", "y", 1.0), ("a", "z", 0.01)]
 """Posture, up axis and unit in metres: in pairs, so that each value is met with every family."""
 ARM = ("clav", "arm", "f_arm", "palm")
@@ -71,6 +74,48 @@ def test_a_word_that_few_joints_share_is_no_prefix() -> None:
     readings = read_names(names)
     assert readings == [read_name(name) for name in names]
     assert readings[4] == Reading("", "", "")
+
+
+@pytest.mark.slow
+def test_arms_held_out_make_no_wider_trunk(tmp_path: Path) -> None:
+    widths = []
+    for pose in "ta":
+        path = make_body(FAMILIES["mixamo"], pose=pose).file().write(tmp_path / "body.glb")
+        capsules = import_body(path, pose).rig.capsules
+        trunk = [k for k, name in enumerate(capsules.names) if name.startswith("trunk_")]
+        widths.append(capsules.b[trunk, 0] + capsules.radius[trunk])
+    held_out, lowered = widths
+    np.testing.assert_allclose(held_out, lowered, atol=0.006)
+
+
+@pytest.mark.slow
+def test_capsules_are_fitted_to_arms_not_to_wide_sleeves(tmp_path: Path) -> None:
+    bare = make_body(FAMILIES["mixamo"])
+    radii = []
+    for body in (bare, with_sleeves(bare, 2.5)):
+        capsules = import_body(body.file().write(tmp_path / "body.glb"), "body").rig.capsules
+        radii.append({n: float(capsules.radius[k]) for k, n in enumerate(capsules.names)})
+    plain, dressed = radii
+    assert {n for n in plain if abs(dressed[n] - plain[n]) > 1e-9} == {"forearm_L", "forearm_R"}
+    for side in "LR":
+        assert dressed[f"forearm_{side}"] == pytest.approx(plain[f"forearm_{side}"], rel=0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("widest", [1.0, 4.0])
+@pytest.mark.parametrize("pose", ["t", "a"])
+def test_what_the_signer_meets_is_met_in_wide_sleeves_too(
+    pose: str, widest: float, tmp_path: Path
+) -> None:
+    body = with_sleeves(make_body(FAMILIES["mixamo"], pose=pose), widest)
+    path = body.file().write(tmp_path / "body.glb")
+    write_folder(import_body(path, "body"), tmp_path / "body")
+    made = azee.compile(EXAMPLES / "tree" / "tree.azee", tmp_path / "body")
+    # The published thumb cannot be met by anybody: its other side would be 95 degrees off.
+    (missed,) = (c for c in made.report.constraints if not c.met)
+    assert missed.subject == "orient 'nrm !thumb(s, 2)"
+    assert missed.residual is not None
+    assert np.degrees(missed.residual) < 16.0
 
 
 @pytest.mark.slow

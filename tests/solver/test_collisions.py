@@ -88,6 +88,28 @@ def test_a_meant_contact_allows_what_the_capsules_stand_out() -> None:
     assert plain.reach[other] == placed.reach[other] == called.reach[other]
 
 
+def test_what_touches_an_elbow_may_touch_upper_arm_and_forearm(signer: Rig) -> None:
+    touch = Place(Site("EL", S), SitePoint(Site("PA", W)), contact=True)
+    binding, body = Binding(signer, Side.RIGHT), anatomy(signer.chain, signer.coordinates)
+    plain, called = (Obstacles(binding, body, asked) for asked in ((), (touch,)))
+    names, allowed = signer.capsules.names, plain.reach - called.reach
+    depth = {
+        name: float(allowed[k])
+        for k, pair in enumerate(plain.pairs)
+        for name in ("upper_arm_R", "forearm_R", "shoulder_R", "hand_R_ulnar")
+        if {name, "hand_L_ulnar"} == {names[i] for i in pair}
+    }
+    # The forearm's capsule does not stand out beyond the elbow, the upper arm's does by 19 mm.
+    assert 0.009 < depth["forearm_R"] < 0.013
+    assert depth["upper_arm_R"] == pytest.approx(depth["forearm_R"] + 0.019, abs=1e-3)
+    assert depth["hand_R_ulnar"] == 0.0
+    wrist = Place(Site("WR", S), SitePoint(Site("PA", W)), contact=True)
+    at_wrist = plain.reach - Obstacles(binding, body, (wrist,)).reach
+    near = {names[i] for k in np.flatnonzero(at_wrist) for i in plain.pairs[k] if "_R" in names[i]}
+    assert {"forearm_R", "hand_R_ulnar"} <= near
+    assert not near & {"upper_arm_R", "index_R_1", "thumb_R_1"}
+
+
 def test_each_of_two_meant_contacts_allows_its_own_pairs_and_the_wider_one_what_both_touch() -> (
     None
 ):

@@ -9,8 +9,10 @@ from tree_sign import DIR, S, along, tasks
 
 from azee_solver import block
 from azee_solver.body import Body
+from azee_solver.broadphase import broad_phase
+from azee_solver.collisions import MARGIN_M
 from azee_solver.constraint import Constraint, Place
-from azee_solver.descent import scaled_weights, soft_descent, stiff_descent
+from azee_solver.descent import scaled_weights, soft_descent, stiff_descent, without_margin
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Bone, Side, Site, Vec, WorldPoint
 from azee_solver.group_search import GroupSearch
@@ -75,6 +77,20 @@ def test_kept_damping_goes_on_where_the_last_steps_ended() -> None:
         ends = [program(end, np.empty(0)) for end in (on, again)]
         assert ends[0] == pytest.approx(ends[1], rel=1e-6)
     assert bold < anew
+
+
+def test_without_margin_capsules_are_as_wide_as_they_are() -> None:
+    program = search(0).program
+    wished = program.section(block.PAIR_REACH).copy()
+    margin = program.layout.margin
+    assert set(margin.tolist()) == {0.0, MARGIN_M}
+    with without_margin(program):
+        np.testing.assert_array_equal(program.section(block.PAIR_REACH), wished - margin)
+    np.testing.assert_array_equal(program.section(block.PAIR_REACH), wished)
+    pairs = broad_phase(RIG, search(0).collisions).pairs
+    names = np.array(RIG.capsules.names)[broad_phase(RIG, search(0).collisions).capsules]
+    trunk = [any(n.startswith("trunk") for n in names[pair]) for pair in pairs]
+    assert margin[trunk].min() == MARGIN_M
 
 
 def test_weights_come_back_also_after_an_error() -> None:

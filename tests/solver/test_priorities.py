@@ -19,7 +19,7 @@ from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Bone, Opp, Side, Site, WorldPoint
 from azee_solver.group_search import GroupSearch
 from azee_solver.options import SolveOptions
-from azee_solver.priorities import GIVEN_UP_PULL, give_up_later_tasks
+from azee_solver.priorities import GIVEN_UP_PULL, give_up_later_tasks, take_back
 from azee_solver.result import Result, is_repeat
 from azee_solver.solve import solve
 from azee_solver.solve_report import SolveReport
@@ -83,6 +83,48 @@ def test_one_that_misses_alone_keeps_its_weight() -> None:
     factors, result = give_up_later_tasks(lonely, {}, never, order)
     assert factors == {}
     assert result is lonely
+
+
+BEFORE = np.full(1, 7.0)
+
+
+class Pull:
+    """A task that misses by less the more its weight, until another misses or the body is hit.
+
+    From anywhere but BEFORE it is found on its other side, where it misses by much.
+    """
+
+    def __init__(self, *, bound: float, deep: float) -> None:
+        self.bound, self.deep = bound, deep
+
+    def __call__(self, factors: Mapping[int, float], begin: NDArray[np.float64]) -> Result:
+        factor = factors[1]
+        other = 0.5 if factor <= self.bound else 2.0
+        overlap_m = 0.001 if factor <= self.deep else 0.005
+        missed = 2.0 / factor if begin is BEFORE else 300.0
+        ratios = {0: other, 1: missed, 2: 9.0}
+        return Result(Q, ratios, other**2, overlap_m, frozenset(), frozenset(factors))
+
+
+@pytest.mark.parametrize(("bound", "deep"), [(0.4, 1.0), (1.0, 0.4)])
+def test_a_task_is_given_up_no_further_than_the_others_need(bound: float, deep: float) -> None:
+    again, given = Pull(bound=bound, deep=deep), {2: 0.01}
+    little = again({1: 0.01, **given}, Q)
+    factors, result = take_back(little, {1: 0.01, **given}, given, again, BEFORE, deepest_m=0.003)
+    assert 0.25 < factors[1] <= 0.4
+    assert result.ratios[1] == 2.0 / factors[1]
+    assert not result.unmet()
+    assert result.overlap_m < 0.003
+    assert factors[2] == given[2]
+
+
+def test_nothing_is_taken_back_where_giving_up_did_not_help() -> None:
+    missed = Result(Q, {0: 2.0, 1: 8.0}, 4.0, 0.0, frozenset(), frozenset({1}))
+
+    def never(factors: Mapping[int, float], begin: NDArray[np.float64]) -> Result:
+        raise AssertionError
+
+    assert take_back(missed, {1: 0.1}, {}, never, Q, deepest_m=0.003) == ({1: 0.1}, missed)
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,9 @@
 """Fits capsules to a body, which keep arms out of the trunk and hands out of the face.
 
 Trunk: lateral capsules, as deep and as wide as the trunk at their height. Limbs: along the bone,
-with the radius that holds most of the skin. Hands: two capsules, on the thumb's and on the little
-finger's side, since a palm is flat. Fingers: one per phalanx.
+with the radius that holds most of the skin, or the usual one where that is a sleeve. Hands: two
+capsules, on the thumb's and on the little finger's side, since a palm is flat. Fingers: one per
+phalanx.
 """
 
 from __future__ import annotations
@@ -26,6 +27,14 @@ TRUNK_HEIGHTS = (0.0, 0.17, 0.34, 0.51, 0.67, 0.84)
 BAND_M = 0.03
 LIMB_SHARE = 75.0
 """A limb's capsule holds this percentile of the skin's distances from the bone."""
+ARMS = {
+    "shoulder": (0.29, 0.36),
+    "upper_arm": (0.23, 0.31),
+    "elbow": (0.23, 0.31),
+    "forearm": (0.175, 0.21),
+}
+"""Radius of an arm's capsules as a share of the bone's length: the mean of the bodies that ship,
+and a fifth more than that of the heavy man. What is wider than that is a sleeve."""
 HEAD = {
     "skull": ((0.0, 0.20, -1.49), (0.0, 0.41, -1.00), 1.41),
     "face": ((0.0, -0.55, 0.22), (0.0, -1.52, 0.02), 0.43),
@@ -51,6 +60,7 @@ class _Fitter:
     bones: Mapping[str, BoneNodes]
     joints: Mapping[str, tuple[str, ...]]
     size: float
+    lowered: Floats
     made: dict[str, tuple[int, Floats, Floats, float]] = field(default_factory=dict)
 
     def add(self, name: str, node: int, a: Floats, b: Floats, radius: float) -> None:
@@ -59,8 +69,12 @@ class _Fitter:
 
     def skin_of(self, *bones: str, at_least: float = 0.6) -> Floats:
         """Return the vertices that some bones carry, (n, 3)."""
+        return self.surface.mesh.vertices[self.carried_by(*bones, at_least=at_least)]
+
+    def carried_by(self, *bones: str, at_least: float = 0.6) -> NDArray[np.bool_]:
+        """Tell which vertices some bones carry, (N,)."""
         joints = [j for bone in bones for j in self.joints[bone]]
-        return self.surface.mesh.vertices[self.surface.share(joints) >= at_least]
+        return np.asarray(self.surface.share(joints) >= at_least)
 
 
 def fit_capsules(
@@ -71,12 +85,16 @@ def fit_capsules(
     bones: Mapping[str, BoneNodes],
     joints: Mapping[str, tuple[str, ...]],
     size: float = 1.0,
+    lowered: Floats | None = None,
 ) -> Capsules:
     """Fit all capsules in the mesh's own posture and list the pairs that must not overlap.
 
-    Args: size: of the body, relative to the signer, where a length here is in metres.
+    Args: size: of the body, relative to the signer, where a length here is in metres. lowered:
+        (N, 3) the vertices with the arms let down, if they are held out in the mesh's own posture:
+        the flesh of raised shoulders makes a trunk some 2 cm wider on each side.
     """
-    fit = _Fitter(surface, anatomy, frames, node_names, bones, joints, size)
+    skin = surface.mesh.vertices if lowered is None else lowered
+    fit = _Fitter(surface, anatomy, frames, node_names, bones, joints, size, skin)
     _fit_trunk(fit)
     _fit_head(fit)
     for side in SIDES:
@@ -99,7 +117,7 @@ def _fit_trunk(fit: _Fitter) -> None:
     low, high = fit.anatomy.origin("back_1"), fit.anatomy.origin("neck")
     trunk = [n for n in fit.node_names if n.startswith("back_")]
     levels = [fit.frames.positions[fit.node_names.index(n)][1] for n in trunk]
-    skin = fit.skin_of("back_1", "back_2", "root")
+    skin = fit.lowered[fit.carried_by("back_1", "back_2", "root")]
     for i, at in enumerate(TRUNK_HEIGHTS):
         y = low[1] + at * (high[1] - low[1])
         band = _band(skin, y, BAND_M * fit.size)
@@ -189,8 +207,14 @@ def _fit_limb(
     far: float,
 ) -> None:
     a, b = fit.anatomy.origin(start), fit.anatomy.origin(end)
+    length_m = float(np.linalg.norm(b - a))
     a, b = a + near * (b - a), a + far * (b - a)
-    fit.add(name, node, a, b, _radius(fit.skin_of(*flesh_of), a, b, LIMB_SHARE))
+    radius = _radius(fit.skin_of(*flesh_of), a, b, LIMB_SHARE)
+    if (part := name.rpartition("_")[0]) in ARMS:
+        usual, most = ARMS[part]
+        if radius > most * length_m:
+            radius = usual * length_m
+    fit.add(name, node, a, b, radius)
 
 
 def _radius(points: Floats, a: Floats, b: Floats, share: float, from_end: float = 0.0) -> float:

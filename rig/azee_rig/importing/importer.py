@@ -39,6 +39,7 @@ from azee_rig.importing.vrm import expressions, humanoid
 from azee_rig.load import load_rig
 from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Capsules, Rig, RigSite
+from azee_rig.skin import skin
 
 Floats = NDArray[np.float64]
 
@@ -314,7 +315,10 @@ class _Import:
                 sites[site.name] = site
         marks = landmarks_of(built, coordinates, self.signer.landmarks.reference_arm_m)
         size = marks.arm_m / marks.reference_arm_m
-        capsules = fit_capsules(surface, anatomy, frames, nodes, built.bones, limbs.flesh, size)
+        lowered = self._arms_let_down(mesh, limbs, coordinates, built)
+        capsules = fit_capsules(
+            surface, anatomy, frames, nodes, built.bones, limbs.flesh, size, lowered
+        )
         morphs = read_skeletal_morphs(DATA / "skeletal_morphs.json", coordinates.names)
         rig = Rig(
             name=self.name,
@@ -339,6 +343,17 @@ class _Import:
             folder=Path(self.name),
         )
         return replace(rig, sites=riding(rig, mesh)), lost
+
+    def _arms_let_down(
+        self, mesh: BodyMesh, limbs: Limbs, coordinates: Coordinates, built: BuiltChain
+    ) -> Floats:
+        """Return the vertices with the upper arms as the signer's mesh has them, (N, 3)."""
+        q, signer = np.array(coordinates.bind), self.signer.coordinates
+        for name, v in coordinates.index.items():
+            if name.startswith("arm_"):
+                q[v] = signer.bind[signer.index[name]]
+        pose = limbs.drive.pose(q, coordinates.bind, built.chain, limbs.skeleton)
+        return skin(mesh, limbs.skeleton, pose)
 
     def _absent(self) -> set[str]:
         """Bones of digits that have no joints at all."""

@@ -124,7 +124,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     mode: Mode = "tracks",
     seed: int | None = None,
     life: bool = True,
-    rest: Rest = "folded",
+    rest: Rest = "hanging",
     solver: Method = "grouped",
     precise: bool = False,
     strict_body: bool = False,
@@ -151,8 +151,8 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         seed: of the random numbers for breathing, blinking and sway, a whole number from 0 on; by
             default one that follows from the score.
         life: whether the signer breathes, blinks and sways.
-        rest: where arms are before and after, and while nothing is asked of them. folded: one hand
-            lies on the other before the belly. hanging: at the sides. ready: before the body,
+        rest: where arms are before and after, and while nothing is asked of them. hanging: at the
+            sides. folded: one hand lies on the other before the belly. ready: before the body,
             bent.
         solver: how postures are found. grouped: problems that share coordinates are solved
             together. two-level: the iteration of Nunnari et al. 2018, for comparison.
@@ -224,7 +224,7 @@ def perform(
     mode: Mode = "tracks",
     seed: int | None = None,
     life: bool = True,
-    rest: Rest = "folded",
+    rest: Rest = "hanging",
     solver: Method = "grouped",
     precise: bool = False,
     strict_body: bool = False,

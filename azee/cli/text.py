@@ -50,7 +50,7 @@ dominant_option = click.option(
 rest_option = click.option(
     "--rest",
     type=click.Choice(["folded", "hanging", "ready"]),
-    default="folded",
+    default="hanging",
     show_default=True,
     help="Where arms are that nothing is asked of: hands on one another, hanging, or held ready.",
 )

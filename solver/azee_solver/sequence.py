@@ -37,7 +37,7 @@ class GroupSequence:
         before: Solution | None = None,
         *,
         give_up: bool = False,
-        ease: bool = False,
+        comfort: bool = False,
     ) -> Solution:
         """Return the posture in which all groups end.
 
@@ -57,7 +57,7 @@ class GroupSequence:
                 result = self._searched(group, q, unsettled, before)
             if give_up:
                 result = self._without_later_tasks(group, q, unsettled, result)
-            if ease:
+            if comfort:
                 result = eased(moment, group, q, unsettled, result)
             q = q.copy()
             q[sorted(group.free)] = result.q[sorted(group.free)]

@@ -56,5 +56,5 @@ def solve(
         solution = groups.solve(solution.reach, solution, give_up=True)  # 8
     solution = symmetric(moment, solution)  # 9
     if not moment.options.precise:
-        solution = groups.solve(solution.reach, solution, ease=True)  # 10
+        solution = groups.solve(solution.reach, solution, comfort=True)  # 10
     return report(moment, solution, groups.spent_s, began)  # 11

@@ -1,4 +1,4 @@
-"""Symmetric demands are met symmetrically.
+"""Symmetric tasks are met symmetrically.
 
 Groups are solved one after the other, and a second arm that has to keep clear of the first may end
 in quite another posture: finger tips that meet before the signer had one elbow at the body and one
@@ -32,7 +32,7 @@ ALIKE = 2.0
 
 
 def symmetric(moment: Moment, solution: Solution) -> Solution:
-    """Return a symmetric solution of symmetric demands, else the one given.
+    """Return a symmetric solution of symmetric tasks, else the one given.
 
     Of the two halves that of less posture cost is taken, if it meets as much.
     """

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from azee.animation import Animation, animate
-from azee.motion.keys.rest import RESTS, Rest, rest_posture
+from azee.motion.keys.rest import DEFAULT, RESTS, Rest, rest_posture
 from azee.quality.motion_report import ConstraintResult
 from azee.score.interval import Interval
 from azee.score.score import Block, Call, Group, Hold, Key, Score
@@ -172,7 +172,7 @@ def test_ways_from_and_to_rest_are_calm(rest: Rest) -> None:
 
 
 def test_an_idle_hand_stays_at_rest_while_the_other_signs() -> None:
-    standing = rest_posture(rig(), "folded", Side.RIGHT)
+    standing = rest_posture(rig(), DEFAULT, Side.RIGHT)
     weak = [i for i, n in enumerate(rig().coordinates.names) if "_L" in n and n[:3] != "eye"]
     clip = played(TWO_KEYS).clip
     assert clip.coordinates[:, weak] == pytest.approx(
@@ -183,7 +183,7 @@ def test_an_idle_hand_stays_at_rest_while_the_other_signs() -> None:
 def test_nothing_jumps() -> None:
     clip = played(PATH, fps=60.0).clip
     step = np.abs(np.diff(clip.coordinates, axis=0)) * 60.0
-    assert 2.5 < step.max() < 5.5
+    assert 2.5 < step.max() < 6.5
     jump = np.abs(np.diff(clip.coordinates, n=2, axis=0)) * 60.0**2
     assert 15.0 < jump.max() < 40.0
 
@@ -294,7 +294,7 @@ def test_a_free_hand_goes_down_while_the_other_signs_on() -> None:
     )
     left = [i for i, n in enumerate(rig().coordinates.names) if n.startswith(("arm_L", "f_arm_L"))]
     late = animation.clip.coordinates[frame_at(animation, 2.0)]
-    standing = rest_posture(rig(), "folded", Side.RIGHT)
+    standing = rest_posture(rig(), DEFAULT, Side.RIGHT)
     assert late[left] == pytest.approx(standing[left], abs=NEARLY_RAD)
     both = animation.clip.coordinates[frame_at(animation, 0.5)]
     assert np.abs(both[left] - standing[left]).max() > 0.2
@@ -408,7 +408,7 @@ def test_a_look_turns_eyes_and_lids_and_leaves_the_arms_at_rest() -> None:
     animation = played(score)
     assert animation.report.met, animation.report.constraints
     arms = [i for i, n in enumerate(rig().coordinates.names) if n.startswith(("arm", "f_arm"))]
-    idle = rest_posture(rig(), "folded", Side.RIGHT)[arms]
+    idle = rest_posture(rig(), DEFAULT, Side.RIGHT)[arms]
     assert animation.clip.coordinates[:, arms] == pytest.approx(
         np.broadcast_to(idle, (len(animation.clip.times), len(arms))), abs=NEARLY_RAD
     )

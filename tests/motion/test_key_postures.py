@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from azee.animation import Animation, animate
-from azee.motion.keys.rest import rest_posture
+from azee.motion.keys.rest import DEFAULT, rest_posture
 from azee.motion.keys.transpath import boundaries_on_paths, path_motions
 from azee.motion.tasks.key_posture import Origin, Search
 from azee.motion.tasks.key_selection import Mode
@@ -193,7 +193,7 @@ def test_what_is_open_is_drawn_to_idle_and_a_block_that_lasts_is_where_the_searc
     arm = [v for v, name in enumerate(rig().coordinates.names) if name.startswith("arm_R")]
     assert all(asked.reference[arm] == pytest.approx(idle[arm]) for asked in (a, b, c))
     weak = [v for v, name in enumerate(rig().coordinates.names) if name.startswith("arm_L")]
-    standing = rest_posture(rig(), "folded", Side.RIGHT)
+    standing = rest_posture(rig(), DEFAULT, Side.RIGHT)
     assert a.reference[weak] == pytest.approx(standing[weak]), "where nothing is asked it rests"
     assert [asked.start[flexion] - idle[flexion] for asked in (a, b, c)] == pytest.approx(
         [0.0, 0.0, 0.2]
@@ -307,7 +307,7 @@ def test_a_limb_long_unused_is_at_rest_again() -> None:
     second = boundaries(solver)[1]
     assert second.constraints == (weak,)
     strong = [v for v, name in enumerate(rig().coordinates.names) if name.startswith("arm_R")]
-    standing = rest_posture(rig(), "folded", Side.RIGHT)
+    standing = rest_posture(rig(), DEFAULT, Side.RIGHT)
     assert second.start[strong] == pytest.approx(standing[strong])
 
 

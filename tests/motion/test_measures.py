@@ -95,8 +95,8 @@ def test_what_is_missed_between_keys_has_a_reason(residual: float, reason: str |
         unit=lambda task: "rad",
         tolerance=lambda task: 0.01,
     )
-    samples = SimpleNamespace(seconds=np.arange(3.0), only=lambda rows: rows)
-    plan: Any = SimpleNamespace(monitor=monitor, samples=samples, postures=())
-    (found,) = constraint_results(schedule, plan, {}, 30.0)
+    samples: Any = SimpleNamespace(seconds=np.arange(3.0), only=lambda rows: rows)
+    plan: Any = SimpleNamespace(monitor=monitor, postures=())
+    (found,) = constraint_results(schedule, plan, samples, {}, 30.0)
     assert found.met == (reason is None)
     assert found.reason == reason

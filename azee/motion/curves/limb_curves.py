@@ -56,7 +56,7 @@ PEAK_SPEED, PEAK_ACCELERATION, PEAK_JERK = 1.875, 10.0 / math.sqrt(3.0), 60.0
 LONGEST_CALM_S = 0.7
 
 
-CALM_M_S = 2.0
+CALM_M_S = 1.5
 """Largest speed of a wrist that has time: people who sign rarely exceed it (docs/likeness.md)."""
 PEAK_SPEED = 1.875
 """Largest s′."""

@@ -65,7 +65,7 @@ class Boundaries:
 
     @property
     def eased(self) -> dict[Constraint, float]:
-        """Constraints that some of the postures ease for comfort, and by how much at most."""
+        """Constraints that are eased in some of the postures, and by how much at most."""
         out: dict[Constraint, float] = {}
         for answer in (c for p in self.postures for c in p.report.constraints):
             if answer.outcome is Outcome.EASED:

@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 Rest = Literal["folded", "hanging", "ready"]
 
 RESTS: tuple[Rest, ...] = get_args(Rest)
-DEFAULT: Rest = "folded"
+DEFAULT: Rest = "hanging"
 
 RELAXED_DEG: Mapping[str, float] = {
     f"{finger}_{{side}}_{joint}": angle

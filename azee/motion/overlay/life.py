@@ -31,7 +31,7 @@ DRIFT_HZ = (0.12, 2.2)
 SLOW_DRIFT_HZ = (0.1, 0.9)
 _SINES = 9
 DRIFT_DEG: Mapping[str, float] = {
-    "back": 0.3, "neck": 0.6, "head": 0.6, "eye": 0.12, "clav": 0.35, "arm": 0.4, "f_arm": 0.4,
+    "back": 0.35, "neck": 0.6, "head": 0.7, "eye": 0.12, "clav": 0.35, "arm": 0.4, "f_arm": 0.4,
     "palm": 0.4,
 }  # fmt: skip
 """Root mean square of the drift of coordinates, by the beginning of their bones' names."""
@@ -48,10 +48,10 @@ REACTION_DEG_S2_M = 0.12
 """Turn of the trunk against an acceleration of the hands of 1 m/s², degrees."""
 FOLLOWING_HZ = 0.9
 FOLLOWING_DEG_M: Mapping[str, tuple[float, float, float]] = {
-    "back_1.axial": (5.0, 0.0, 0.0),
-    "head.axial": (9.0, 0.0, 0.0),
-    "head.lateral": (-3.0, 0.0, 0.0),
-    "head.flexion": (0.0, -6.0, 0.0),
+    "back_1.axial": (3.0, 0.0, 0.0),
+    "head.axial": (5.0, 0.0, 0.0),
+    "head.lateral": (-2.0, 0.0, 0.0),
+    "head.flexion": (0.0, -3.0, 0.0),
     "back_1.flexion": (0.0, -1.0, 3.0),
 }
 """Turn of coordinates where the mean of the hands is by so many metres to the left, up, forward."""

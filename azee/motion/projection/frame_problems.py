@@ -74,7 +74,7 @@ class FrameProblems:
         programs: list[Program] = []
         moving: list[_Moving] = []
         for now, rows in self._in_force(times):
-            problem = self._problem(now, times[rows[0]])
+            problem = self._lay_out(now, times[rows[0]])
             of_frame[rows] = len(programs)
             programs.append(problem.program)
             for v, angle in problem.presets.items():
@@ -139,7 +139,7 @@ class FrameProblems:
         rows = self.monitor.rows_inside(path.motion.task, seconds)
         return rows.start, rows.stop
 
-    def _problem(self, now: _InForce, time: Fraction) -> _Problem:
+    def _lay_out(self, now: _InForce, time: Fraction) -> _Problem:
         evaluator = self.monitor.evaluator
         rig = evaluator.rig
         idle = rig.coordinates.idle

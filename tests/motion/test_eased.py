@@ -118,5 +118,5 @@ def test_what_a_hold_eases_stays_as_it_is_while_the_head_shakes() -> None:
     assert eases(shaken.report)
     arms = [v for v, n in enumerate(shaken.rig.coordinates.names) if n.startswith(("arm", "clav"))]
     held = [p.coordinates[arms] for p in shaken.report.postures if p.time <= HELD_S]
-    assert len(held) > 4
+    assert len(held) >= 2
     assert np.ptp(np.degrees(held), axis=0).max() < 0.01

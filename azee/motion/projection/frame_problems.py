@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from azee.motion.keys.residual_monitor import ResidualMonitor
 from azee.motion.keys.transpath import AnchoredPath
-from azee.motion.tasks.limbs import TRUNK, is_finger, limb_of_coordinate
+from azee.motion.tasks.limbs import CARRIERS, is_finger, limb_of_coordinate
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
 from azee_solver.anatomy import anatomy
@@ -36,8 +36,11 @@ Mask = NDArray[np.bool_]
 
 TOUCH_S = 0.15
 """Bodies may be as near as a touch brings them this long before and after it."""
-TRUNK_SHARE = 50.0
-"""How many times more the trunk costs than in a posture: key postures have chosen its place."""
+CARRIER_SHARE = 50.0
+"""How many times more trunk and head cost than in a posture: keys have chosen where they are, and
+a chin does not come to meet a finger."""
+ACCENT_SHARE = 0.4
+"""Of its tolerance that an accent may be off at the cost of 1."""
 COMFORT = 0.1
 """Share of the joint-limit cost: it leads steps along limits instead of against them."""
 PRESET_PLAY_RAD = math.radians(0.4)
@@ -66,10 +69,10 @@ class FrameProblems:
         """
         coordinates = self.monitor.evaluator.rig.coordinates
         free_keep = self.options.posture * np.array(coordinates.stiffness) ** 2
-        trunk = [limb_of_coordinate(name) == TRUNK for name in coordinates.names]
-        free_keep[trunk] *= TRUNK_SHARE
+        carriers = [limb_of_coordinate(name) in CARRIERS for name in coordinates.names]
+        free_keep[carriers] *= CARRIER_SHARE
         keep = np.tile(free_keep, (len(times), 1))
-        keep[accented] = self.options.tolerance.angle_rad**-2
+        keep[accented] = (ACCENT_SHARE * self.options.tolerance.angle_rad) ** -2
         fixed = np.zeros(keep.shape, dtype=np.bool_)
         target = np.clip(reference, coordinates.lower, coordinates.upper)
         of_frame = np.empty(len(times), dtype=np.int64)

@@ -107,7 +107,9 @@ def test_people_read_what_the_trunk_leans_for() -> None:
     )
     assert found
     assert int(found[1]) == pytest.approx(lean_deg(far), abs=1.5)
-    (strain,) = far.report.as_json()["strains"]  # type: ignore[misc]
+    rows = far.report.as_json()["strains"]
+    assert isinstance(rows, list)
+    (strain,) = rows
     assert strain["for"] == ["place @I_TIP(s) point(-0.15, -0.1, 0.74)"]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from functools import cache
 
 import numpy as np
@@ -46,7 +47,7 @@ def program(*constraints: Constraint) -> Program:
     tape = Tape(
         of_body(), body.frames(idle), anatomy(rig().chain, rig().coordinates).moved_by(every)
     )
-    tasks = {i: Task(c, (), 0, i) for i, c in enumerate(constraints)}
+    tasks = {i: Task(c, (), Fraction(0), i) for i, c in enumerate(constraints)}
     rows = lower(tape, tasks, options.tolerance, {}).rows
     nothing = np.zeros(len(idle))
     collisions = body.obstacles.for_problem(every, frozenset())

@@ -120,12 +120,15 @@ class Trajectory:
         T = len(self.reference)
         lower, upper = self.lower, self.upper
         out = np.clip(self.reference, lower, upper)
-        for start, stop in _windows(T, fps):
-            first = max(0, start - ORDER - 1)
-            out[first:stop] = self._solve_window(range(first, stop), start - first, out[first:stop])
+        windows = [(max(0, start - ORDER - 1), start, stop) for start, stop in _windows(T, fps)]
+        room = _Room.of(max(stop - first for first, _, stop in windows), out.shape[1])
+        for first, start, stop in windows:
+            out[first:stop] = self._solve_window(
+                range(first, stop), start - first, out[first:stop], room
+            )
         return out
 
-    def _solve_window(self, frames: range, solved: int, start: Array) -> Array:
+    def _solve_window(self, frames: range, solved: int, start: Array, room: _Room) -> Array:
         """Return the postures of some frames, the first of which are solved."""
         T, n = start.shape
         rows = slice(frames.start, frames.stop)
@@ -136,14 +139,7 @@ class Trajectory:
         fixed = self.fixed[rows].astype(np.int64)
         fixed[:solved] = 1
         bands = _difference_bands(T)
-        room = [
-            np.empty((T, n, n)), np.empty((T * n, ORDER * n + 1)),
-            *(np.empty((T, n)) for _ in range(4)), np.empty(0),
-        ]  # fmt: skip
-        misses, result, spare = np.empty((2, T)), np.empty(2), np.empty((T, n))
-        stuck = np.empty((T, n), dtype=np.int64)
-        component, members = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
-        coupled = np.empty((n, n), dtype=np.int64)
+        misses, result = np.empty((2, T)), np.empty(2)
 
         def descend(stage: Stage) -> float:
             """Take a stage's steps; return the largest miss that is left, in tolerances."""
@@ -152,8 +148,9 @@ class Trajectory:
             _PROJECT(
                 T, n, weights.shape[1], refills.entries.shape[1], ORDER, stage.steps, blocks,
                 x, reference, keep, weights, refills.counts, refills.entries, refills.numbers,
-                bands, self.smooth, self.lower, self.upper, fixed, options, *room, misses[0],
-                result, stuck, spare, component, members, misses[1], coupled,
+                bands, self.smooth, self.lower, self.upper, fixed, options, *room.reals,
+                misses[0], result, *room.integers[:1], room.spare, *room.integers[1:3], misses[1],
+                room.integers[3],
             )  # fmt: skip
             return math.sqrt(float(misses[0].max(initial=0.0)))
 
@@ -162,6 +159,30 @@ class Trajectory:
         if descend(WHOLE) > MET_SHARE:
             descend(FIRM)
         return x
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Room:
+    """What the kernel works in: matrices, band, gradient, step, trial, spare, nothing; and words.
+
+    It is made once for all windows: fresh pages of memory cost as much as a step.
+    """
+
+    reals: Sequence[Array]
+    spare: Array
+    integers: Sequence[Ints]
+
+    @staticmethod
+    def of(count: int, n: int) -> _Room:
+        """Make room for windows of so many frames and n coordinates."""
+        reals = [
+            np.empty(count * n * n),
+            np.empty(count * n * (ORDER * n + 1)),
+            *(np.empty(count * n) for _ in range(4)),
+            np.empty(0),
+        ]
+        sizes = (count * n, n, n, n * n)
+        return _Room(reals, np.empty(count * n), [np.empty(k, dtype=np.int64) for k in sizes])
 
 
 def _weights(programs: Sequence[Program]) -> Array:

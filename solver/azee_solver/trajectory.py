@@ -141,7 +141,7 @@ class Trajectory:
         bands = _difference_bands(T)
         misses, result = np.empty((2, T)), np.empty(2)
 
-        def descend(stage: Stage) -> float:
+        def take(stage: Stage) -> float:
             """Take a stage's steps; return the largest miss that is left, in tolerances."""
             refills = self.refilled(frames, x)
             options = np.array([stage.misses, stage.overlaps * self.overlap, stage.tolerance, 1e-4])
@@ -154,10 +154,10 @@ class Trajectory:
             )  # fmt: skip
             return math.sqrt(float(misses[0].max(initial=0.0)))
 
-        if descend(LOOK) > NEAR:
-            descend(SOFT)
-        if descend(WHOLE) > MET_SHARE:
-            descend(FIRM)
+        if take(LOOK) > NEAR:
+            take(SOFT)
+        if take(WHOLE) > MET_SHARE:
+            take(FIRM)
         return x
 
 

@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,7 @@ from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
 from azee_solver.anatomy import anatomy
 from azee_solver.body import Body
+from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Morph, Place
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import SitePoint
@@ -39,6 +41,8 @@ TOUCH_S = 0.15
 CARRIER_SHARE = 50.0
 """How many times more trunk and head cost than in a posture: keys have chosen where they are, and
 a chin does not come to meet a finger."""
+SWAY_M = 0.0015
+"""Added to the margin that arms and hands keep from trunk and head."""
 ACCENT_SHARE = 0.4
 """Of its tolerance that an accent may be off at the cost of 1."""
 COMFORT = 0.1
@@ -166,7 +170,7 @@ class FrameProblems:
             sorted(free),
             tape,
             residuals.rows,
-            body.obstacles.for_problem(free, frozenset()),
+            _farther(body.obstacles.for_problem(free, frozenset())),
             Cost(np.array(idle), nothing, comfort, self.options.overlap),
         )
         return _Problem(now, tasks, residuals.runs, presets, program)
@@ -296,6 +300,13 @@ class _Problem:
     runs: Mapping[int, tuple[int, int]]
     presets: Mapping[int, float]
     program: Program
+
+
+@lru_cache(maxsize=256)
+def _farther(collisions: Collisions) -> Collisions:
+    """Keep what is kept away from trunk and head a little farther away: bodies sway."""
+    farther = np.where(np.asarray(collisions.margin) > 0.0, SWAY_M, 0.0)
+    return Collisions(collisions.pairs, collisions.reach + farther, collisions.margin)
 
 
 def _has_rows(task: TimedTask) -> bool:

@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from azee.motion.keys.residual_monitor import ResidualMonitor
 from azee.motion.keys.transpath import AnchoredPath
-from azee.motion.tasks.limbs import CARRIERS, is_finger, limb_of_coordinate
+from azee.motion.tasks.limbs import CARRIERS, TRUNK, is_finger, limb_of_coordinate
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
+from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
 from azee_solver.body import Body
 from azee_solver.broadphase import Collisions
@@ -42,7 +43,7 @@ CARRIER_SHARE = 50.0
 """How many times more trunk and head cost than in a posture: keys have chosen where they are, and
 a chin does not come to meet a finger."""
 SWAY_M = 0.0015
-"""Added to the margin that arms and hands keep from trunk and head."""
+"""Added to the margin that arms and hands keep from the trunk."""
 ACCENT_SHARE = 0.4
 """Of its tolerance that an accent may be off at the cost of 1."""
 COMFORT = 0.1
@@ -170,7 +171,7 @@ class FrameProblems:
             sorted(free),
             tape,
             residuals.rows,
-            _farther(body.obstacles.for_problem(free, frozenset())),
+            _farther(rig, body.obstacles.for_problem(free, frozenset())),
             Cost(np.array(idle), nothing, comfort, self.options.overlap),
         )
         return _Problem(now, tasks, residuals.runs, presets, program)
@@ -303,9 +304,11 @@ class _Problem:
 
 
 @lru_cache(maxsize=256)
-def _farther(collisions: Collisions) -> Collisions:
-    """Keep what is kept away from trunk and head a little farther away: bodies sway."""
-    farther = np.where(np.asarray(collisions.margin) > 0.0, SWAY_M, 0.0)
+def _farther(rig: Rig, collisions: Collisions) -> Collisions:
+    """Keep what is kept away from the trunk a little farther away: bodies sway."""
+    of_trunk = np.array([name.startswith(TRUNK) for name in rig.capsules.names])
+    trunk = of_trunk[collisions.pairs].any(axis=1)
+    farther = np.where(trunk & (np.asarray(collisions.margin) > 0.0), SWAY_M, 0.0)
     return Collisions(collisions.pairs, collisions.reach + farther, collisions.margin)
 
 

@@ -484,3 +484,16 @@ def test_each_ref_of_a_sync_rule_that_names_no_block_is_reported() -> None:
         ("duplicate-block", "text.azee:1:19"),
         ("duplicate-block", "text.azee:1:46"),
     ]
+
+
+@pytest.mark.parametrize("path", ["'A:start", "'A/", "'/A"])
+def test_what_a_block_is_within_is_a_block_and_no_moment(path: str) -> None:
+    """Whatever is wrong with the path, a colon or a part without a name."""
+    (problem,) = problems(f"sync 'A (key .5 (look ^up)) 'B (key .1 (look ^up)) 'with {path}")
+    assert problem.code == "bad-ref"
+    assert problem.message == "`'with` wants the name of a block alone"
+
+
+def test_a_broken_block_brings_no_mistake_about_its_sync() -> None:
+    text = "key (sync 'A :arbr 'B (key .1 (look ^up)) 'start 'A:end) (look ^up)"
+    assert found(text) == ["unknown-rule 1:14"]

@@ -295,3 +295,19 @@ def test_the_angle_of_a_wrist_is_that_of_hand_and_forearm(signer: Rig) -> None:
     frames, bones = both.frames, signer.bones
     f_arm, palm = (frames.rotations[0, bones[b].node, :, 1] for b in ("f_arm_R", "palm_R"))
     assert angle == pytest.approx(math.degrees(math.acos(f_arm @ palm)), abs=1e-6)
+
+
+@pytest.mark.parametrize(("way_m", "counts"), [(0.0195, False), (0.0210, True)])
+def test_a_way_of_two_centimetres_is_a_transition(signer: Rig, way_m: float, counts: bool) -> None:
+    """What it leaves out of a way of minimum jerk, before and after, is less than 2 %."""
+    course = then(moves(0.2, 0.0, 0.8), moves(1.02 * way_m, 1.5, 0.2), moves(-0.2, 2.3, 0.8))
+    k = drawn(signer, 3.5, wrists={"R": course, "L": still()})
+    found = transitions(k, [span(0.5, 1.2, limbs=ARM_R), span(1.8, 2.6, limbs=ARM_R)])
+    assert len(found) == counts
+    assert all(t.distance_m == pytest.approx(way_m, rel=0.02) for t in found)
+
+
+def test_a_way_on_which_the_clip_ends_ends_with_it(signer: Rig) -> None:
+    k = drawn(signer, 1.3, wrists={"R": moves(0.4, 1.0, 0.6), "L": still()})
+    (found,) = transitions(k, [span(0.2, 0.9, limbs=ARM_R), span(1.6, 2.0, limbs=ARM_R)])
+    assert found.end_s == pytest.approx(1.3, abs=1.5 / 120)

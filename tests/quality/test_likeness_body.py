@@ -257,6 +257,8 @@ def test_elbows_of_a_symmetric_sign_are_mirror_images(signer: Rig) -> None:
     level = forearm_level(Side.LEFT)
     moving = span(0.5, 1.5, limb="palm_L", limbs=ARM_L, constraint=level, moving=True)
     assert elbow_asymmetry_cm(k, [*both, moving]) is None
+    first = span(0.1, 0.5, limb="palm_L", limbs=ARM_L, constraint=level, moving=True)
+    assert elbow_asymmetry_cm(k, [first, *both]) == found  # it is still symmetric afterwards
 
 
 def test_a_sign_that_its_mirror_image_does_not_meet_is_not_symmetric(signer: Rig) -> None:

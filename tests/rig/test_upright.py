@@ -159,3 +159,16 @@ def test_toes_that_point_backwards_are_told(body: Body, ahead_m: float, doubted:
     )
     doubts = _doubts(walking, propose(_tree(walking)))
     assert any("the toes point backwards" in doubt for doubt in doubts) == doubted
+
+
+def test_a_body_in_the_air_and_beside_the_origin_is_set_down_on_it(body: Body) -> None:
+    """By its soles and its hips; its height and its lengths stay."""
+    off = np.array([0.7, 0.5, -0.9])
+    tree = Tree(body.names, np.array(body.parents), body.places + off)
+    stand = stand_up(tree, propose(tree), body.vertices + off, exactly=False)
+    points, hips = stand.points(body.vertices + off), body.names.index("Hips")
+    assert points[:, 1].min() == pytest.approx(0.0, abs=1e-6)
+    there = stand.points(tree.places)[hips]
+    assert there[[0, 2]] == pytest.approx([0.0, 0.0], abs=1e-6)
+    assert np.ptp(points, axis=0) == pytest.approx(np.ptp(body.vertices, axis=0))
+    assert stand.vectors(off) == pytest.approx(off)

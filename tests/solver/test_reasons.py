@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from azee_rig.rig import Rig
@@ -83,3 +85,18 @@ def test_the_body_is_named_where_it_stops_a_constraint(signer: Rig) -> None:
     found = reasons(signer, inside, *fixed)
     assert found[0].startswith("the body is in the way")
     assert "the trunk" in found[0]
+
+
+@pytest.mark.parametrize("lower_deg", [10.0, -10.0])
+def test_a_joint_at_its_lower_limit_is_told_on_whichever_side_that_is(
+    signer: Rig, lower_deg: float
+) -> None:
+    """The head of this body turns from 10° to the left, or to the right, and no farther back."""
+    c = signer.coordinates
+    axial = c.index["head.axial"]
+    lower, idle = np.array(c.lower), np.array(c.idle)
+    lower[axial], idle[axial] = math.radians(lower_deg), math.radians(lower_deg + 10.0)
+    body = replace(signer, coordinates=replace(c, lower=lower, idle=idle))
+    found = reasons(body, turn(HEAD, UP, lower_deg - 5.0))[0]
+    assert found.startswith("the head cannot turn further: it is at ")
+    assert found.endswith(" and needs 5.0° more")

@@ -224,3 +224,45 @@ def test_the_body_itself_is_found_again_from_far_away(signer: Rig) -> None:
     assert np.degrees(palms).max() < 0.03
     made = retarget(source, signer)
     assert made.wrist_m.max() < 0.0002
+
+
+@pytest.mark.parametrize(("gain", "changes"), [(3.7, False), (4.2, True)])
+def test_a_degree_of_haste_weighs_as_one(signer: Rig, gain: float, changes: bool) -> None:
+    """Two degrees in one frame cost 4: an arm changes to another way where it gains more."""
+    still = posed(signer, 2, {"f_arm_{}.flexion": 60})
+    arms = retargeting._Arms(signer, measure_clip(still, signer), still.coordinates)
+    one, other = still.coordinates, still.coordinates.copy()
+    turned = arms.columns[:, retargeting.PRONATION]
+    other[:, turned] += np.radians(2.0)
+    costs = [np.array([[0.0, 0.0], [gain, gain]]), np.array([[100.0, 100.0], [0.0, 0.0]])]
+    asked = iter(costs)
+    arms._residual = lambda q, wish: (next(asked), q)  # type: ignore[method-assign]
+    found = arms.steadiest([one, other], one)
+    moved = np.degrees(found[1, turned] - found[0, turned])
+    assert moved == pytest.approx([2.0, 2.0] if changes else [0.0, 0.0])
+
+
+def test_what_is_measured_of_a_clip_holds_no_angles_of_arms_and_fingers(signer: Rig) -> None:
+    """Those are another body's own; trunk, head and eyes turn as they did."""
+    names = set(measure_clip(posed(signer, 1, {}), signer).coordinates)
+    bones = {name.split(".")[0] for name in names}
+    assert bones == {"back_1", "back_2", "neck", "head", "eye_L", "eye_R", "jaw"} & bones
+    assert {"back_1", "back_2", "neck", "head", "eye_L", "eye_R"} <= bones
+
+
+def test_a_figure_stands_straight_whichever_axis_of_its_file_is_up() -> None:
+    """Up may be against an axis; the head is 10° ahead of the hips."""
+    upright = stick_figure(2, ("OFFSET 0 60 0", f"OFFSET 0 60 {60 * np.tan(np.radians(10)):.6f}"))
+    head, motion = upright.split("\nMOTION\n")
+    words, turned = head.split(), []
+    while words:
+        turned.append(words.pop(0))
+        if turned[-1] == "OFFSET":  # half a turn about the axis ahead
+            x, y, z = (float(words.pop(0)) for _ in range(3))
+            turned += [f"{-x:.9f}", f"{-y:.9f}", f"{z:.9f}"]
+    first, second, *rows = motion.splitlines()
+    against = [" ".join(str(-float(number)) for number in row.split()) for row in rows]
+    other = "\n".join([" ".join(turned), "MOTION", first, second, *against, ""])
+    found = [measure_recording(parse_bvh(text, "cm")) for text in (upright, other)]
+    for name in ("palms", "wrists", "elbows"):
+        np.testing.assert_allclose(getattr(found[1], name), getattr(found[0], name), atol=1e-9)

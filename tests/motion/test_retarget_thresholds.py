@@ -110,14 +110,18 @@ def test_arms_that_differ_by_a_fifth_may_be_misread(forearm: str, told: bool) ->
         ("cm", ("28 0 0", "1.24 0 0"), True),
         ("mm", ("28 0 0", "0.105 0 0"), False),
         ("mm", ("28 0 0", "0.095 0 0"), True),
+        ("m", ("28 0 0", "1 0 0"), True),
     ],
 )
 def test_a_part_without_length_is_told_by_a_twentieth_and_by_a_tenth_of_a_millimetre(
     unit: str, change: tuple[str, str], refused: bool
 ) -> None:
-    """Of a forearm of 25 cm, a twentieth is 1.25 cm; of one of 1 mm, less than a tenth."""
+    """Of a forearm of 25 cm, a twentieth is 1.25 cm; of one of 1 mm, less than a tenth.
+
+    A twentieth exactly, as of one of 20 m, is no length, either.
+    """
     text = stick_figure(1).replace(*change)
-    text = text.replace("25 0 0", "1 0 0") if unit == "mm" else text
+    text = text.replace("25 0 0", {"mm": "1 0 0", "m": "20 0 0", "cm": "25 0 0"}[unit])
     recording = parse_bvh(text, unit)
     if refused:
         with pytest.raises(RetargetError, match="the upper arm L has no length"):
@@ -266,3 +270,19 @@ def test_a_figure_stands_straight_whichever_axis_of_its_file_is_up() -> None:
     found = [measure_recording(parse_bvh(text, "cm")) for text in (upright, other)]
     for name in ("palms", "wrists", "elbows"):
         np.testing.assert_allclose(getattr(found[1], name), getattr(found[0], name), atol=1e-9)
+
+
+def test_a_step_turns_no_joint_by_more_than_half_a_radian(signer: Rig) -> None:
+    """Either way: what is linear near a posture tells little farther away."""
+    source = measure_clip(posed(signer, 1, {
+        "arm_{}.flexion": 60, "arm_{}.rotation": 50, "f_arm_{}.flexion": 120,
+        "f_arm_{}.pronation": 80, "palm_{}.flexion": -30,
+    }), signer)  # fmt: skip
+    idle = np.array(signer.coordinates.idle)[None]
+    arms = retargeting._Arms(signer, source, idle)
+    for start in (idle, arms.solved(idle, idle)):
+        away = replace(source, wrists=source.wrists[:, ::-1] * [-1.0, 1.0, 1.0] + [0.0, 0.3, -0.2])
+        there = retargeting._Arms(signer, away, idle)
+        _, r = there._residual(start, idle)
+        turned = (there._step(start, idle, r, np.full((1, 2), 1e-8)) - start)[0]
+        assert np.abs(turned).max() <= 0.5 + 1e-12

@@ -207,6 +207,16 @@ def test_a_head_that_is_back_already_returns_at_once(signer: Rig) -> None:
     assert head_under_gaze(k, [span(0.2, 0.5, limb="eyes", constraint=GAZE)]).return_s == 0.0
 
 
+@pytest.mark.parametrize(("turned_deg", "return_s"), [(4.9, 0.0), (5.1, 0.5)])
+def test_a_head_turned_by_five_degrees_is_not_back(
+    signer: Rig, turned_deg: float, return_s: float
+) -> None:
+    """Until the clip ends."""
+    k = drawn(signer, 1.0, {"head.lateral": still(turned_deg)})
+    found = head_under_gaze(k, [span(0.2, 0.5, limb="eyes", constraint=GAZE)]).return_s
+    assert found == pytest.approx(return_s, abs=FRAME)
+
+
 def test_a_lean_of_the_trunk_is_no_turn_of_the_head_against_it(signer: Rig) -> None:
     k = drawn(signer, 1.0, {"back_2.lateral": still(10.0)})
     assert head_under_gaze(k, [span(0.2, 0.5, limb="eyes", constraint=GAZE)]).return_s == 0.0

@@ -182,6 +182,24 @@ def test_joints_that_start_one_after_the_other_spread_their_onsets(signer: Rig) 
     assert found.onset_spread_ms == pytest.approx(60.0, abs=0.5)
 
 
+@pytest.mark.parametrize(("turned_deg", "counts"), [(4.8, False), (5.2, True)])
+def test_a_joint_that_turns_less_than_five_degrees_has_no_onset(
+    signer: Rig, turned_deg: float, counts: bool
+) -> None:
+    """A wrist beside the elbow: with one joint alone there is no spread."""
+    k = drawn(
+        signer,
+        3.0,
+        {
+            "f_arm_R.flexion": moves(40.0, 1.0, 0.6, 30.0),
+            "palm_R.flexion": moves(turned_deg, 1.15, 0.3),
+        },
+        {"R": then(moves(0.2, 0.0, 0.5), moves(0.3, 1.0, 0.6)), "L": still()},
+    )
+    (found,) = transitions(k, [span(0.5, 1.0, limbs=ARM_R), span(1.6, 2.0, limbs=ARM_R)])
+    assert (found.onset_spread_ms is not None) == counts
+
+
 def test_a_slower_joint_s_onset_comes_later(signer: Rig) -> None:
     """A tenth of the peak is passed at .0864 of the time: of .7 s later than of .5 s."""
     k = drawn(

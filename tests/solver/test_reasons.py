@@ -64,6 +64,13 @@ def test_a_limit_that_stops_a_constraint_less_than_another_is_told_after_it(sign
     assert found == {1: f"conflicts with `rotate !neck ^up 20`; besides, {limit}"}
 
 
+@pytest.mark.parametrize(("degrees", "first"), [(-51.0, "conflicts"), (-56.0, "the neck cannot")])
+def test_what_stops_the_larger_half_is_told_first(signer: Rig, degrees: float, first: str) -> None:
+    """Of a turn of 51° the limit stops 26°, and the other constraint a little more."""
+    found = reasons(signer, turn(NECK, UP, 20), turn(NECK, FORWARD, degrees))
+    assert found[1].startswith(first)
+
+
 def test_a_constraint_that_nothing_meets_does_not_exclude_others(signer: Rig) -> None:
     """The head cannot turn so far, whatever the hand, which is too far away, does."""
     found = reasons(

@@ -16,6 +16,7 @@ ROOT = Path(__file__).parents[1]
 MODULES = {
     "waits": "benchmarks.waits",
     "language": "benchmarks.language_growth",
+    "signs": "benchmarks.signs",
     "motion": "benchmarks.motion_length",
     "prompt": "benchmarks.prompt",
     "frames": "benchmarks.frames",

@@ -15,6 +15,7 @@ ahead into frames that the next one solves again.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -60,8 +61,16 @@ class Stage:
     tolerance: float
 
 
-STAGES = (Stage(1e-3, 1e-3, 6, 0.1), Stage(1.0, 1.0, 8, 0.05), Stage(4.0, 0.1, 4, 0.03))
-"""Soft first: a stiff start from a reference that misses by a hand's length ends in bad minima."""
+LOOK = Stage(1.0, 1.0, 0, 0.0)
+"""Measures what the reference misses."""
+NEAR = 30.0
+"""A reference that misses by more tolerances is first drawn near softly: a stiff start from there
+ends in bad minima."""
+SOFT = Stage(1e-3, 1e-3, 6, 0.1)
+WHOLE = Stage(1.0, 1.0, 14, 0.03)
+MET_SHARE = 0.7
+"""What is still missed by more than this share of a tolerance is met more firmly at the end."""
+FIRM = Stage(4.0, 0.1, 6, 0.02)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,11 +95,13 @@ class Refilling(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trajectory:
-    """The problem of a movement of T frames, all V coordinates of the rig being free.
+    """The problem of a movement of T frames and all V coordinates of a rig.
 
-    programs: of all frames, several of which may share one. of_frame: (T,) each frame's, an index.
+    programs: of all frames, several of which may share one; each is laid out for the coordinates
+    that its terms hang on, with all nodes moving. of_frame: (T,) each frame's, an index.
     reference, keep: (T, V) radians and cost of a squared radian. fixed: (T, V) coordinates that
-    stay at the reference. smooth: (V,) s_v. overlap: cost of a squared metre of overlap.
+    stay at the reference. smooth, lower, upper: (V,) s_v and the limits. overlap: cost of a
+    squared metre of overlap.
     """
 
     programs: Sequence[Program]
@@ -99,24 +110,25 @@ class Trajectory:
     keep: Array
     fixed: NDArray[np.bool_]
     smooth: Array
+    lower: Array
+    upper: Array
     overlap: float
     refilled: Refilling
 
-    def solve(self, fps: float, stages: Sequence[Stage] = STAGES) -> Array:
+    def solve(self, fps: float) -> Array:
         """Return the postures (T, V) that lower F, inside the limits."""
         T = len(self.reference)
-        lower, upper = self.programs[0].lower, self.programs[0].upper
+        lower, upper = self.lower, self.upper
         out = np.clip(self.reference, lower, upper)
-        for start, stop in _windows(T, fps):
-            first = max(0, start - ORDER - 1)
+        windows = [(max(0, start - ORDER - 1), start, stop) for start, stop in _windows(T, fps)]
+        room = _Room.of(max(stop - first for first, _, stop in windows), out.shape[1])
+        for first, start, stop in windows:
             out[first:stop] = self._solve_window(
-                range(first, stop), start - first, out[first:stop], stages
+                range(first, stop), start - first, out[first:stop], room
             )
         return out
 
-    def _solve_window(
-        self, frames: range, solved: int, start: Array, stages: Sequence[Stage]
-    ) -> Array:
+    def _solve_window(self, frames: range, solved: int, start: Array, room: _Room) -> Array:
         """Return the postures of some frames, the first of which are solved."""
         T, n = start.shape
         rows = slice(frames.start, frames.stop)
@@ -127,24 +139,50 @@ class Trajectory:
         fixed = self.fixed[rows].astype(np.int64)
         fixed[:solved] = 1
         bands = _difference_bands(T)
-        room = [
-            np.empty((T, n, n)), np.empty((T * n, ORDER * n + 1)),
-            *(np.empty((T, n)) for _ in range(4)), np.empty((3, n)),
-        ]  # fmt: skip
-        deepest, result, spare = np.empty(T), np.empty(2), np.empty((T, n))
-        stuck = np.empty((T, n), dtype=np.int64)
-        component, members = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
-        first = self.programs[0]
-        for stage in stages:
+        misses, result = np.empty((2, T)), np.empty(2)
+
+        def take(stage: Stage) -> float:
+            """Take a stage's steps; return the largest miss that is left, in tolerances."""
             refills = self.refilled(frames, x)
             options = np.array([stage.misses, stage.overlaps * self.overlap, stage.tolerance, 1e-4])
             _PROJECT(
                 T, n, weights.shape[1], refills.entries.shape[1], ORDER, stage.steps, blocks,
                 x, reference, keep, weights, refills.counts, refills.entries, refills.numbers,
-                bands, self.smooth, first.lower, first.upper, fixed, options, *room, deepest,
-                result, stuck, spare, component, members,
+                bands, self.smooth, self.lower, self.upper, fixed, options, *room.reals,
+                misses[0], result, *room.integers[:1], room.spare, *room.integers[1:3], misses[1],
+                room.integers[3],
             )  # fmt: skip
+            return math.sqrt(float(misses[0].max(initial=0.0)))
+
+        if take(LOOK) > NEAR:
+            take(SOFT)
+        if take(WHOLE) > MET_SHARE:
+            take(FIRM)
         return x
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Room:
+    """What the kernel works in: matrices, band, gradient, step, trial, spare, nothing; and words.
+
+    It is made once for all windows: fresh pages of memory cost as much as a step.
+    """
+
+    reals: Sequence[Array]
+    spare: Array
+    integers: Sequence[Ints]
+
+    @staticmethod
+    def of(count: int, n: int) -> _Room:
+        """Make room for windows of so many frames and n coordinates."""
+        reals = [
+            np.empty(count * n * n),
+            np.empty(count * n * (ORDER * n + 1)),
+            *(np.empty(count * n) for _ in range(4)),
+            np.empty(0),
+        ]
+        sizes = (count * n, n, n, n * n)
+        return _Room(reals, np.empty(count * n), [np.empty(k, dtype=np.int64) for k in sizes])
 
 
 def _weights(programs: Sequence[Program]) -> Array:

@@ -16,7 +16,7 @@ SHEET: dict[str, Any] = runpy.run_path(
 )
 SHAPES: list[str] = list(SHEET["shapes"]())
 DEEPEST_M = 0.003
-FOLD_M = 0.0032
+FOLD_M = 0.0047
 """The thumb's base folds the palm's own flesh, which skin that follows bones shows as depth."""
 
 

@@ -146,7 +146,7 @@ def test_the_score_keeps_its_times() -> None:
     ]  # fmt: skip
 
 
-NEARLY_RAD = math.radians(0.3)
+NEARLY_RAD = math.radians(1.0)
 """Hands beside the trunk are drawn from it by so much."""
 
 

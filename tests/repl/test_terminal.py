@@ -49,8 +49,8 @@ def test_a_session(tmp_path: Path) -> None:
         terminal.wait("error[unknown-rule]")
         assert "did you mean `:wag`" in terminal.text
 
-        terminal.type("seq (map (azop 'n 'nodefault :info-about(:arbre, :bien)) (range 1 60))\n")
-        terminal.wait("480 blocks")
+        terminal.type("seq (map (azop 'n 'nodefault :info-about(:arbre, :bien)) (range 1 600))\n")
+        terminal.wait("4800 blocks")
         time.sleep(0.5)
         terminal.press("ctrl-c")
         assert terminal.wait("interrupted") < 3

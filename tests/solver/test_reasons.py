@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ def turn(bone: Bone, axis: Vec, degrees: float) -> Rotate:
 
 def reasons(rig: Rig, *constraints: Constraint) -> dict[int, str]:
     """Why constraints are not met, by their number."""
-    tasks = [Task(c, ("A",), 0.0, i) for i, c in enumerate(constraints)]
+    tasks = [Task(c, ("A",), Fraction(0), i) for i, c in enumerate(constraints)]
     idle = rig.coordinates.idle
     report = solve(rig, tasks, dominant=Side.RIGHT, start=idle, reference=idle)
     return {i: c.reason for i, c in enumerate(report.constraints) if c.reason is not None}

@@ -40,18 +40,26 @@ class PathKeys:
     interpolation: Interpolation
     frame_times: Sequence[Fraction]
     _by_time: IntervalIndex[PathMotion] = field(init=False)
+    _joined: list[KeyPosture] = field(init=False, default_factory=list)
 
     def __post_init__(self) -> None:
         self._by_time = index_by_time(self.motions)
 
     def join_boundaries(self) -> Movement:
         """Join the keys, without what they say of limbs that should be on a path then."""
-        out = []
+        out: list[KeyPosture] = []
         for posture in self.postures:
             on_paths = (m.task.limbs for m in self._in_control(posture.time))
             free = posture.limbs.difference(*on_paths)
             out.append(posture if free == posture.limbs else replace(posture, limbs=free))
+        self._joined = out
         return self.interpolation.through(out)
+
+    def movement(self, joined: Movement) -> Movement:
+        """Return the movement through all keys; the joined one where no key has been added."""
+        if self.postures == self._joined:
+            return joined
+        return self.interpolation.through(self.postures)
 
     def anchor_paths(self, joined: Movement) -> None:
         """Measure where paths start and end.

@@ -97,7 +97,7 @@ def plan(
     if selection.flat:
         keys.sample_paths(joined)
         keys.sample_moving_targets()
-    movement = interpolation.through(keys.postures)
+    movement = keys.movement(joined)
 
     # 10. Lead the movement round the body where it would go through it.
     if not selection.flat:

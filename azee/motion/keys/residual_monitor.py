@@ -103,8 +103,10 @@ class ResidualMonitor:
         """
         first, last = float(task.interval.start), float(task.interval.end)
         if task.rank in self.paths:
+            # Where a placement takes the site or leaves it, the placement holds it.
             motion = self.paths[task.rank].motion
-            first, last = float(motion.start), float(motion.end)
+            first = float(motion.start) + (2 * _SAME_S if motion.before is not None else 0.0)
+            last = float(motion.end) - (2 * _SAME_S if motion.after is not None else 0.0)
         last += _SAME_S
         early = self.early_ends.get(task.rank)
         if early is not None:

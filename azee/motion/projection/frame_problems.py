@@ -10,17 +10,19 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.keys.residual_monitor import ResidualMonitor
 from azee.motion.keys.transpath import AnchoredPath
-from azee.motion.tasks.limbs import TRUNK, limb_of_coordinate
+from azee.motion.tasks.limbs import CARRIERS, is_finger, limb_of_coordinate
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
 from azee_solver.anatomy import anatomy
 from azee_solver.body import Body
+from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Morph, Place
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import SitePoint
@@ -36,8 +38,15 @@ Mask = NDArray[np.bool_]
 
 TOUCH_S = 0.15
 """Bodies may be as near as a touch brings them this long before and after it."""
-TRUNK_SHARE = 50.0
-"""How many times more the trunk costs than in a posture: key postures have chosen its place."""
+CARRIER_SHARE = 50.0
+"""How many times more trunk and head cost than in a posture: keys have chosen where they are, and
+a chin does not come to meet a finger."""
+SWAY_M = 0.0015
+"""Added to the margin that arms and hands keep from trunk and head."""
+ACCENT_SHARE = 0.4
+"""Of its tolerance that an accent may be off at the cost of 1."""
+COMFORT = 0.1
+"""Share of the joint-limit cost: it leads steps along limits instead of against them."""
 PRESET_PLAY_RAD = math.radians(0.4)
 """How far fingers may be from the angles of their handshape, inside the tolerance."""
 _SOMEWHERE = np.array([0.123456, 1.0, 0.5])
@@ -48,11 +57,11 @@ _SOMEWHERE = np.array([0.123456, 1.0, 0.5])
 class FrameProblems:
     """Makes the trajectory problem of a movement.
 
-    factors: of the weights of constraints, where not 1.
+    factors: of the weights of tasks, by rank, where not 1.
     """
 
     monitor: ResidualMonitor
-    factors: Mapping[Constraint, float]
+    factors: Mapping[int, float]
     options: SolveOptions
 
     def trajectory(
@@ -64,10 +73,10 @@ class FrameProblems:
         """
         coordinates = self.monitor.evaluator.rig.coordinates
         free_keep = self.options.posture * np.array(coordinates.stiffness) ** 2
-        trunk = [limb_of_coordinate(name) == TRUNK for name in coordinates.names]
-        free_keep[trunk] *= TRUNK_SHARE
+        carriers = [limb_of_coordinate(name) in CARRIERS for name in coordinates.names]
+        free_keep[carriers] *= CARRIER_SHARE
         keep = np.tile(free_keep, (len(times), 1))
-        keep[accented] = self.options.tolerance.angle_rad**-2
+        keep[accented] = (ACCENT_SHARE * self.options.tolerance.angle_rad) ** -2
         fixed = np.zeros(keep.shape, dtype=np.bool_)
         target = np.clip(reference, coordinates.lower, coordinates.upper)
         of_frame = np.empty(len(times), dtype=np.int64)
@@ -86,8 +95,9 @@ class FrameProblems:
         smooth = free_keep * (SMOOTH_S * fps) ** (2 * ORDER)
         refilling = _Refilling(self.monitor.evaluator, len(times), moving)
         return Trajectory(
-            programs, of_frame, target, keep, fixed, smooth, self.options.overlap, refilling
-        )
+            programs, of_frame, target, keep, fixed, smooth, coordinates.lower, coordinates.upper,
+            self.options.overlap, refilling,
+        )  # fmt: skip
 
     def _in_force(self, times: Sequence[Fraction]) -> list[tuple[_InForce, list[int]]]:
         """Return what holds together in frames, and in which."""
@@ -148,20 +158,33 @@ class FrameProblems:
         count = len(now.tasks)
         tasks = {i: t.ik_task(time) for i, t in enumerate(now.tasks) if _has_rows(t)}
         tasks |= {count + i: path.ik_task(_SOMEWHERE) for i, path in enumerate(now.paths)}
-        factors = {
-            i: self.factors[task.constraint]
-            for i, task in tasks.items()
-            if task.constraint in self.factors
-        }
+        ranked = (*now.tasks, *(path.motion.task for path in now.paths))
+        factors = {i: self.factors.get(task.rank, 1.0) for i, task in enumerate(ranked)}
         tape = self._tape(body.frames(idle))
         residuals = lower(tape, tasks, self.options.tolerance, factors)
-        everything, nothing = frozenset(range(len(idle))), np.zeros(len(idle))
+        free = self._free(now, presets)
+        nothing, comfort = np.zeros(len(idle)), np.full(len(idle), COMFORT * self.options.comfort)
         program = Program(
-            rig, idle, sorted(everything), tape, residuals.rows,
-            body.obstacles.for_problem(everything, frozenset()),
-            Cost(np.array(idle), nothing, nothing, self.options.overlap),
-        )  # fmt: skip
+            rig,
+            idle,
+            sorted(free),
+            tape,
+            residuals.rows,
+            _farther(body.obstacles.for_problem(free, frozenset())),
+            Cost(np.array(idle), nothing, comfort, self.options.overlap),
+        )
         return _Problem(now, tasks, residuals.runs, presets, program)
+
+    def _free(self, now: _InForce, presets: Mapping[int, float]) -> frozenset[int]:
+        """Return the coordinates that terms of a frame hang on.
+
+        Fingers are left out unless something but a handshape moves them: they follow the reference.
+        """
+        names = self.monitor.evaluator.rig.coordinates.names
+        bodily = {v for v, n in enumerate(names) if not is_finger(limb_of_coordinate(n))}
+        tasks = (*now.tasks, *(path.motion.task for path in now.paths))
+        moved = {v for t in tasks if _has_rows(t) for v in (*t.moves, *t.reads)}
+        return frozenset(bodily | (moved - presets.keys()))
 
     def _tape(self, frames: Frames) -> Tape:
         rig = self.monitor.evaluator.rig
@@ -277,6 +300,13 @@ class _Problem:
     runs: Mapping[int, tuple[int, int]]
     presets: Mapping[int, float]
     program: Program
+
+
+@lru_cache(maxsize=256)
+def _farther(collisions: Collisions) -> Collisions:
+    """Keep what is kept away from trunk and head a little farther away: bodies sway."""
+    farther = np.where(np.asarray(collisions.margin) > 0.0, SWAY_M, 0.0)
+    return Collisions(collisions.pairs, collisions.reach + farther, collisions.margin)
 
 
 def _has_rows(task: TimedTask) -> bool:

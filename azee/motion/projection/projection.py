@@ -15,7 +15,6 @@ from azee.motion.keys.residual_monitor import MovementSamples
 from azee.motion.keys.transpath import PathEnd
 from azee.motion.projection.frame_problems import FrameProblems
 from azee_rig.chain import Frames
-from azee_solver.constraint import Constraint
 from azee_solver.options import SolveOptions
 
 Array = NDArray[np.float64]
@@ -74,18 +73,19 @@ GIVEN_UP_COST = 0.4
 """What a constraint costs at the residual that a key posture leaves it, in tolerances squared."""
 
 
-def _weights_of_unmet(planned: Plan) -> dict[Constraint, float]:
-    """Return factors of the weights of constraints that some key posture misses or eases.
+def _weights_of_unmet(planned: Plan) -> dict[int, float]:
+    """Return factors of the weights of tasks that some key posture misses or eases, by rank.
 
     They go on drawing, but neither at the cost of what is met nor of the posture's comfort.
     """
-    out: dict[Constraint, float] = {}
+    out: dict[int, float] = {}
     for posture in planned.postures:
-        for answer in posture.report.constraints:
-            if not answer.met:
+        unmet = {c.task.constraint: c for c in posture.report.constraints if not c.met}
+        for task in posture.timed_tasks if unmet else ():
+            answer = unmet.get(task.constraint)
+            if answer is not None:
                 ratio = max(answer.residual / answer.tolerance, 1.0)
-                constraint = answer.task.constraint
-                out[constraint] = min(GIVEN_UP_COST / ratio**2, out.get(constraint, 1.0))
+                out[task.rank] = min(GIVEN_UP_COST / ratio**2, out.get(task.rank, 1.0))
     return out
 
 

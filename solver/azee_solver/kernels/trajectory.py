@@ -19,34 +19,49 @@ from numba import cfunc, njit
 from azee_rig.machine_code import KEEPS
 from azee_rig.pointers import INNER, WORDS, carray, integers, reals
 from azee_solver.block import (
+    AT_DISTANCE,
     CODES,
-    DEEPEST,
+    COLUMN,
+    FREE,
+    HESSIAN,
     MISS_SHARE,
     MOST_DAMPING,
     NUMBERS,
     OVERLAP_WEIGHT,
+    PERPENDICULAR,
     POSTURE,
     ROW_NUMBERS,
     ROWS,
+    VALUES,
+    VECTORS,
+    Q,
 )
 from azee_solver.kernels.band import factorise, solve
 from azee_solver.kernels.model import gauss_newton
 from azee_solver.kernels.objective import objective
-from azee_solver.kernels.sections import matrix
+from azee_solver.kernels.sections import along, matrix, part
 
 
 @njit(**INNER)
-def _frame(
-    t, block, x, ref, keep, weight, counts, places, numbers, shares, three, hessian, gradient
-):
-    """Return f_t at x (n,); write its model too if `hessian` has a size."""
-    n = x.shape[0]
+def _frame(t, block, x, ref, keep, weight, counts, places, numbers, shares, hessian, gradient):
+    """Return f_t at x (V,) and its largest miss; write its model too if `hessian` has a size.
+
+    The miss is w e² of the row that is farthest from being met, in squared tolerances. A program
+    knows the coordinates that its terms hang on; the others cost only to leave the reference.
+    """
     size = integers(block, (1,))[0]
     ints, words = integers(block, (size,)), reals(block, (size,))
+    q, free = part(words, ints, Q), part(ints, ints, FREE)
+    n = free.shape[0]
     posture = matrix(words, ints, POSTURE, n, 5)
+    vectors = matrix(words, ints, VECTORS, 6, n)
+    own = vectors[5]
+    for v in range(x.shape[0]):
+        q[v] = x[v]
     for k in range(n):
-        posture[k, 0] = ref[k]
-        posture[k, 1] = keep[k]
+        own[k] = x[free[k]]
+        posture[k, 0] = ref[free[k]]
+        posture[k, 1] = keep[free[k]]
     rows = (ints[ROWS + 1] - ints[ROWS]) // 3
     row_numbers = matrix(words, ints, ROW_NUMBERS, rows, 2)
     for r in range(rows):
@@ -57,10 +72,46 @@ def _frame(
             entries[places[t, j], c] = numbers[t, j, c]
     words[ints[MISS_SHARE]] = shares[0]
     words[ints[OVERLAP_WEIGHT]] = shares[1]
-    value, contacts = objective(x, gradient, False, ints, words)
+    value, contacts = objective(own, vectors[4], False, ints, words)
+    column = part(ints, ints, COLUMN)
+    for v in range(x.shape[0]):
+        if column[v] < 0:
+            value += keep[v] * (x[v] - ref[v]) ** 2
     if hessian.shape[0]:
-        gauss_newton(x, contacts, three, gradient, hessian, ints, words)
-    return value, words[ints[DEEPEST]]
+        model, curvature = vectors[3], matrix(words, ints, HESSIAN, n, n)
+        gauss_newton(own, contacts, vectors[:3], model, curvature, ints, words)
+        hessian[:] = 0.0
+        for v in range(x.shape[0]):
+            if column[v] < 0:
+                gradient[v] = keep[v] * (x[v] - ref[v])
+                hessian[v, v] = keep[v]
+        for i in range(n):
+            gradient[free[i]] = model[i]
+            for j in range(i, n):
+                hessian[free[i], free[j]] = curvature[i, j]
+    return value, _largest_miss(ints, words)
+
+
+@njit(**INNER)
+def _largest_miss(ints, words):
+    """Return the largest w e² of all rows at the point that was evaluated last."""
+    count = (ints[ROWS + 1] - ints[ROWS]) // 3
+    rows = matrix(ints, ints, ROWS, count, 3)
+    row_numbers = matrix(words, ints, ROW_NUMBERS, count, 2)
+    values = matrix(words, ints, VALUES, (ints[CODES + 1] - ints[CODES]) // 4, 3)
+    largest = 0.0
+    for r in range(count):
+        a, b = rows[r, 1], rows[r, 2]
+        square, dot = 0.0, 0.0
+        for i in range(3):
+            square += (values[a, i] - values[b, i]) ** 2
+            dot += values[a, i] * values[b, i]
+        if rows[r, 0] == PERPENDICULAR:
+            square = dot * dot
+        elif rows[r, 0] == AT_DISTANCE:
+            square = (math.sqrt(square) - row_numbers[r, 1]) ** 2
+        largest = max(largest, row_numbers[r, 0] * square)
+    return largest
 
 
 @njit(**INNER)
@@ -76,23 +127,28 @@ def _roughness(t, x, ref, bands, smooth, v):
 
 
 @njit(**INNER)
-def _couple(hessian, component):
-    """Write for each coordinate the first one that any frame's term couples it with, (n,)."""
+def _couple(hessian, coupled, component):
+    """Write for each coordinate the first one that any frame's term couples it with, (n,).
+
+    Args: coupled: (n, n) room to work in.
+    """
     n = component.shape[0]
+    coupled[:] = 0
+    for t in range(hessian.shape[0]):
+        for i in range(n):
+            for j in along(i + 1, n):
+                if hessian[t, i, j] != 0.0:
+                    coupled[i, j] = 1
     for v in range(n):
         component[v] = v
     for i in range(n):
         for j in range(i + 1, n):
             one, other = component[i], component[j]
-            if one == other:
-                continue
-            for t in range(hessian.shape[0]):
-                if hessian[t, i, j] != 0.0:
-                    first, last = min(one, other), max(one, other)
-                    for v in range(n):
-                        if component[v] == last:
-                            component[v] = first
-                    break
+            if coupled[i, j] != 0 and one != other:
+                first, last = min(one, other), max(one, other)
+                for v in range(n):
+                    if component[v] == last:
+                        component[v] = first
 
 
 @njit(**INNER)
@@ -132,16 +188,16 @@ def _step(
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
 def project(words):
-    """Lower F from x by at most so many steps; write where they lead, and how deep bodies overlap.
+    """Lower F from x by at most so many steps; write where they lead, and what is missed there.
 
     Words: T, n, R, K, order, most steps; blocks (T,) of all n coordinates; x, ref, keep (T, n);
     row weights (T, R); how many entries of a tape are refilled (T,), which (T, K) and with what
     (T, K, 5); bands (order + 1, T) of Dᵀ D; s, lower, upper (n,); fixed (T, n); the shares
     σ and w_o, the relative gain that ends it and the first damping (4,); room: matrices (T, n, n),
-    band (T n, order n + 1), gradient, step, trial, spare (T, n) and (3, n); results: deepest (T,),
-    value and steps (2,).
+    band (T n, order n + 1), gradient, step, trial, spare (T, n) and (3, n); results: largest
+    miss (T,), value and steps (2,).
     """
-    w = carray(words, (33,))
+    w = carray(words, (35,))
     T, n, R, K, order, rounds = w[0], w[1], w[2], w[3], w[4], w[5]
     blocks = integers(w[6], (T,))
     x, ref, keep = reals(w[7], (T, n)), reals(w[8], (T, n)), reals(w[9], (T, n))
@@ -153,10 +209,11 @@ def project(words):
     hessian = reals(w[20], (T, n, n))
     gradient, step = reals(w[22], (T, n)), reals(w[23], (T, n))
     trial, spare = reals(w[24], (T, n)), reals(w[25], (T, n))
-    three, deepest, result = reals(w[26], (3, n)), reals(w[27], (T,)), reals(w[28], (2,))
+    misses, result = reals(w[27], (T,)), reals(w[28], (2,))
     nothing = reals(w[26], (0, 0))
     stuck = integers(w[29], (T, n))
     component, members = integers(w[31], (n,)), integers(w[32], (n,))
+    trial_misses, coupled = reals(w[33], (T,)), integers(w[34], (n, n))
     damping, growth = options[3], 2.0
     value, fresh, steps = np.inf, False, 0
     for t in range(T):
@@ -164,13 +221,15 @@ def project(words):
             trial[t, k] = x[t, k]
     while True:
         other = 0.0
+        first = value == np.inf
         for t in range(T):
-            f, deep = _frame(
+            f, missed = _frame(
                 t, blocks[t], trial[t], ref[t], keep[t], weight[t], counts, places, numbers,
-                options, three, nothing, spare[t],
+                options, hessian[t] if first and rounds > 0 else nothing,
+                gradient[t] if first else spare[t],
             )  # fmt: skip
             other += f
-            deepest[t] = deep
+            trial_misses[t] = missed
             for v in range(n):
                 other += (trial[t, v] - ref[t, v]) * _roughness(t, trial, ref, bands, smooth, v)
         gain = value - other
@@ -185,16 +244,18 @@ def project(words):
                 growth = 2.0
             value = other
             for t in range(T):
+                misses[t] = trial_misses[t]
                 for k in range(n):
                     x[t, k] = trial[t, k]
             if fresh and gain <= options[2] * other:
                 break
             fresh = True
-            for t in range(T):
-                _frame(
-                    t, blocks[t], x[t], ref[t], keep[t], weight[t], counts, places, numbers,
-                    options, three, hessian[t], gradient[t],
-                )  # fmt: skip
+            if not first:
+                for t in range(T):
+                    _frame(
+                        t, blocks[t], x[t], ref[t], keep[t], weight[t], counts, places, numbers,
+                        options, hessian[t], gradient[t],
+                    )  # fmt: skip
             for t in range(T):
                 for v in range(n):
                     gradient[t, v] += _roughness(t, x, ref, bands, smooth, v)
@@ -209,7 +270,7 @@ def project(words):
         if steps >= rounds or damping > MOST_DAMPING or not math.isfinite(value):
             break
         steps += 1
-        _couple(hessian, component)
+        _couple(hessian, coupled, component)
         for c in range(n):
             if component[c] == c:
                 _step(

@@ -227,6 +227,10 @@ def test_labels_and_keys_count_from_the_start_of_the_clip(tmp_path: Path) -> Non
     (told,) = second.document["animations"]
     assert told["extras"] == first.document["animations"][0]["extras"]
     assert told["extras"]["labels"][0]["start_s"] == 0.0
+    third = replace(clip.labels[0], start_s=1 / 3, end_s=2 / 3)
+    write_glb(replace(clip, labels=(third,)), SMALL, tmp_path / "c.glb")
+    (label,) = GlbArrays.read(tmp_path / "c.glb").document["animations"][0]["extras"]["labels"]
+    assert (label["start_s"], label["end_s"]) == (0.333333, 0.666667)  # to a microsecond
     for sampler in told["samplers"]:
         times = second.array(sampler["input"])[:, 0]
         assert times[0] == 0.0

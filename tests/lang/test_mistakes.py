@@ -10,6 +10,7 @@ from evaluations import found, place, problems, program
 
 import azee.lang
 import azee.score
+from azee.lang import values
 from azee.lang.machine import Limits
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 from azee_grammar.source import Source, Span
@@ -484,3 +485,33 @@ def test_each_ref_of_a_sync_rule_that_names_no_block_is_reported() -> None:
         ("duplicate-block", "text.azee:1:19"),
         ("duplicate-block", "text.azee:1:46"),
     ]
+
+
+@pytest.mark.parametrize("path", ["'A:start", "'A/", "'/A"])
+def test_what_a_block_is_within_is_a_block_and_no_moment(path: str) -> None:
+    """Whatever is wrong with the path, a colon or a part without a name."""
+    (problem,) = problems(f"sync 'A (key .5 (look ^up)) 'B (key .1 (look ^up)) 'with {path}")
+    assert problem.code == "bad-ref"
+    assert problem.message == "`'with` wants the name of a block alone"
+
+
+def test_a_broken_block_brings_no_mistake_about_its_sync() -> None:
+    text = "key (sync 'A :arbr 'B (key .1 (look ^up)) 'start 'A:end) (look ^up)"
+    assert found(text) == ["unknown-rule 1:14"]
+
+
+@pytest.mark.parametrize(
+    ("bone", "taken"),
+    [("!palm", "a side"), ("!head", "no side"), ("!index", "a side, then a phalanx")],
+)
+def test_too_many_operands_are_told_with_those_that_a_bone_takes(bone: str, taken: str) -> None:
+    told = problems(f"key 1 (look dir({bone}(s, 1, 1)))")
+    (problem,) = (p for p in told if p.code == "too-many-arguments")
+    assert f"`{bone}` takes {taken}" in problem.message
+
+
+def test_values_without_parts_are_one_deep_and_one_large() -> None:
+    """So that the limits of depth and size count what people write."""
+    kinds = [v for v in vars(values).values() if isinstance(getattr(v, "depth", None), int)]
+    assert len(kinds) > 5
+    assert {(kind.depth, kind.size) for kind in kinds} == {(1, 1)}

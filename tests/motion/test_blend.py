@@ -133,6 +133,14 @@ def test_a_rate_is_common_where_all_clips_have_it() -> None:
         assert common_rate(clips) is None
 
 
+def test_rates_a_thousandth_apart_are_one_rate() -> None:
+    """As those of clips of the same camera are, whose times were rounded."""
+    thirty = still(np.array([0.0, 1 / 30]))
+    near, apart = (still(np.array([0.0, 1 / (30 + off)])) for off in (0.95e-3, 1.05e-3))
+    assert common_rate([thirty, near]) == pytest.approx(30)
+    assert common_rate([thirty, apart]) is common_rate([apart, thirty]) is None
+
+
 def test_more_frames_than_anybody_wants_are_refused_with_their_number() -> None:
     long = still(np.array([0.0, 9000.0]))
     with pytest.raises(TooManyFramesError, match=r"18000 s at 30 frames a second are 540,001"):

@@ -356,3 +356,30 @@ def test_joints_of_one_name_are_told_apart() -> None:
     assert "2 joints are called `Hips`" in read.notes[0]
     text = text.replace("ROOT Hips", "ROOT Hips_2").replace("Bip01 Spine", "Hips")
     assert parse_bvh(text).skeleton.names == ("Hips_2", "Hips", "Hips_3")
+
+
+@pytest.mark.parametrize(
+    "rate",
+    [10, 12, 15, 20, 24, 25, 30, 48, 50, 60, 72, 75, 80, 90, 100, 120, 144, 150, 160, 180, 200, 240,
+     250, 300, 360, 400, 480, 500, 600, 720, 960],
+)  # fmt: skip
+def test_every_usual_rate_is_known_in_times_that_lost_their_unit(rate: int) -> None:
+    """Up to two thousandths slower or faster; what is no such rate is thirty frames a second."""
+    for share in (0.9983, 1.0017):
+        read = parse_bvh(FIGURE.replace("0.04", f"{1e-6 / (rate * share):.9e}"))
+        assert 1 / (read.times[1] - read.times[0]) == pytest.approx(rate * share, rel=1e-6)
+    read = parse_bvh(FIGURE.replace("0.04", f"{1e-6 / (rate * 1.0021):.9e}"))
+    assert 1 / (read.times[1] - read.times[0]) == pytest.approx(30.0)
+
+
+def test_channels_of_scale_are_told_if_one_joint_has_them() -> None:
+    first, rest = FIGURE.split("MOTION")
+    assert first.count("CHANNELS") > 1
+    scaling = first.replace("CHANNELS 6", "CHANNELS 7 Xscale", 1)
+    assert scaling != first
+    lines = rest.strip("\n").split("\n")
+    rows = [f"1.0 {row}" for row in lines if row[:1] in "-0123456789"]
+    text = scaling + "MOTION\n" + "\n".join([x for x in lines if x[:1].isalpha()] + rows) + "\n"
+    told = "its channels of scale are left out"
+    assert told in parse_bvh(text).notes
+    assert told not in parse_bvh(FIGURE).notes

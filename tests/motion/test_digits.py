@@ -312,3 +312,17 @@ def test_a_clip_of_one_rig_keeps_its_angles_on_another(signer: Rig) -> None:
         if not name.endswith("roll"):  # whose limits are each body's own
             w = other.coordinates.index[name]
             assert np.degrees(np.abs(made.clip.coordinates[:, w] - q[:, v]).max()) < 0.01, name
+
+
+def test_a_digit_of_which_nothing_tells_the_end_goes_straight_on() -> None:
+    """Its last joint has neither an end site nor a joint beyond it."""
+    text = stick_signer([bent(OPEN), bent({"index_1": 40.0, "index_2": 30.0})])
+    bare = re.sub(r"End Site \{ OFFSET [^}]+ \}", "", text)
+    assert bare != text
+    plain, other = (
+        {digit.name: digit for digit in measured(written).digits} for written in (text, bare)
+    )
+    assert other.keys() == plain.keys()
+    one, same = plain["index_L"], other["index_L"]
+    np.testing.assert_allclose(same.frames[:, :2], one.frames[:, :2], atol=1e-9)
+    assert same.rest_bend is not None

@@ -182,6 +182,24 @@ def test_joints_that_start_one_after_the_other_spread_their_onsets(signer: Rig) 
     assert found.onset_spread_ms == pytest.approx(60.0, abs=0.5)
 
 
+@pytest.mark.parametrize(("turned_deg", "counts"), [(4.8, False), (5.2, True)])
+def test_a_joint_that_turns_less_than_five_degrees_has_no_onset(
+    signer: Rig, turned_deg: float, counts: bool
+) -> None:
+    """A wrist beside the elbow: with one joint alone there is no spread."""
+    k = drawn(
+        signer,
+        3.0,
+        {
+            "f_arm_R.flexion": moves(40.0, 1.0, 0.6, 30.0),
+            "palm_R.flexion": moves(turned_deg, 1.15, 0.3),
+        },
+        {"R": then(moves(0.2, 0.0, 0.5), moves(0.3, 1.0, 0.6)), "L": still()},
+    )
+    (found,) = transitions(k, [span(0.5, 1.0, limbs=ARM_R), span(1.6, 2.0, limbs=ARM_R)])
+    assert (found.onset_spread_ms is not None) == counts
+
+
 def test_a_slower_joint_s_onset_comes_later(signer: Rig) -> None:
     """A tenth of the peak is passed at .0864 of the time: of .7 s later than of .5 s."""
     k = drawn(
@@ -295,3 +313,19 @@ def test_the_angle_of_a_wrist_is_that_of_hand_and_forearm(signer: Rig) -> None:
     frames, bones = both.frames, signer.bones
     f_arm, palm = (frames.rotations[0, bones[b].node, :, 1] for b in ("f_arm_R", "palm_R"))
     assert angle == pytest.approx(math.degrees(math.acos(f_arm @ palm)), abs=1e-6)
+
+
+@pytest.mark.parametrize(("way_m", "counts"), [(0.0195, False), (0.0210, True)])
+def test_a_way_of_two_centimetres_is_a_transition(signer: Rig, way_m: float, counts: bool) -> None:
+    """What it leaves out of a way of minimum jerk, before and after, is less than 2 %."""
+    course = then(moves(0.2, 0.0, 0.8), moves(1.02 * way_m, 1.5, 0.2), moves(-0.2, 2.3, 0.8))
+    k = drawn(signer, 3.5, wrists={"R": course, "L": still()})
+    found = transitions(k, [span(0.5, 1.2, limbs=ARM_R), span(1.8, 2.6, limbs=ARM_R)])
+    assert len(found) == counts
+    assert all(t.distance_m == pytest.approx(way_m, rel=0.02) for t in found)
+
+
+def test_a_way_on_which_the_clip_ends_ends_with_it(signer: Rig) -> None:
+    k = drawn(signer, 1.3, wrists={"R": moves(0.4, 1.0, 0.6), "L": still()})
+    (found,) = transitions(k, [span(0.2, 0.9, limbs=ARM_R), span(1.6, 2.0, limbs=ARM_R)])
+    assert found.end_s == pytest.approx(1.3, abs=1.5 / 120)

@@ -207,6 +207,16 @@ def test_a_head_that_is_back_already_returns_at_once(signer: Rig) -> None:
     assert head_under_gaze(k, [span(0.2, 0.5, limb="eyes", constraint=GAZE)]).return_s == 0.0
 
 
+@pytest.mark.parametrize(("turned_deg", "return_s"), [(4.9, 0.0), (5.1, 0.5)])
+def test_a_head_turned_by_five_degrees_is_not_back(
+    signer: Rig, turned_deg: float, return_s: float
+) -> None:
+    """Until the clip ends."""
+    k = drawn(signer, 1.0, {"head.lateral": still(turned_deg)})
+    found = head_under_gaze(k, [span(0.2, 0.5, limb="eyes", constraint=GAZE)]).return_s
+    assert found == pytest.approx(return_s, abs=FRAME)
+
+
 def test_a_lean_of_the_trunk_is_no_turn_of_the_head_against_it(signer: Rig) -> None:
     k = drawn(signer, 1.0, {"back_2.lateral": still(10.0)})
     assert head_under_gaze(k, [span(0.2, 0.5, limb="eyes", constraint=GAZE)]).return_s == 0.0
@@ -257,6 +267,8 @@ def test_elbows_of_a_symmetric_sign_are_mirror_images(signer: Rig) -> None:
     level = forearm_level(Side.LEFT)
     moving = span(0.5, 1.5, limb="palm_L", limbs=ARM_L, constraint=level, moving=True)
     assert elbow_asymmetry_cm(k, [*both, moving]) is None
+    first = span(0.1, 0.5, limb="palm_L", limbs=ARM_L, constraint=level, moving=True)
+    assert elbow_asymmetry_cm(k, [first, *both]) == found  # it is still symmetric afterwards
 
 
 def test_a_sign_that_its_mirror_image_does_not_meet_is_not_symmetric(signer: Rig) -> None:

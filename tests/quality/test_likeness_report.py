@@ -48,3 +48,7 @@ def test_the_example_of_three_signs_has_three(signer: Rig) -> None:
     made = perform(evaluate_expression(text).score, signer, life=False)
     found = made.report.likeness.signs
     assert [s.rule for s in found] == ["personne", "âge-once", "number-sign"]
+    figures = made.report.likeness
+    spreads = [t.onset_spread_ms for t in figures.transitions if t.onset_spread_ms is not None]
+    assert len(spreads) >= 1
+    assert figures.onset_spread_ms == sorted(spreads)[len(spreads) // 2]

@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from azee.quality.signing_dynamics import averaged, longest_run, signing_dynamics, speeds
+from azee.quality.signing_dynamics import (
+    SHOULDERS_M,
+    STOPPED_M_S,
+    averaged,
+    longest_run,
+    signing_dynamics,
+    speeds,
+)
 
 Array = NDArray[np.float64]
 PIXELS = 500.0
@@ -82,3 +89,19 @@ def test_the_longest_run() -> None:
     hits = np.array([1, 0, 1, 1, 1, 0, 1, 1], dtype=bool)
     assert longest_run(hits) == 3
     assert longest_run(hits[:0]) == 0
+
+
+def test_a_wrist_as_fast_as_one_that_stops_has_not_stopped() -> None:
+    """Four points are the least that a speed is measured of; these make it the limit exactly."""
+    points = recording(4) / PIXELS
+
+    def speed(step: float) -> float:
+        points[3, 3, 1] = step
+        return float(speeds(points[:, 3] / 0.36 * SHOULDERS_M, FPS)[0])
+
+    near = 0.012 + np.spacing(0.012) * np.arange(-50, 51)
+    step = next(float(s) for s in near if speed(s) == STOPPED_M_S)
+    points[3, 3, 1] = step
+    assert signing_dynamics(points, FPS).both_stopped_share == 0.0
+    points[3, 3, 1] = step * (1.0 - 1e-12)
+    assert signing_dynamics(points, FPS).both_stopped_share == 1.0

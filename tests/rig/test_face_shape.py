@@ -120,3 +120,20 @@ def test_what_is_no_face_is_not_measured(lacking: str) -> None:
         names = "temple cheek beside nose nostril chin throat crown occiput"
         points: dict[str, Any] = dict.fromkeys(names.split(), flat)
         assert measured(**points) == FaceShape()
+
+
+def test_a_face_without_a_middle_or_without_a_side_is_not_measured() -> None:
+    """A mask with a hole where nose and chin would be; and one that lies below the eyes."""
+    apart = 0.4 * CHEEK
+    hole: dict[str, Any] = {
+        name: (apart, y, z)
+        for name, (y, z) in {
+            "nose": (-0.04, NOSE), "nostril": (-0.045, NOSE), "chin": (-CHIN, NOSE),
+            "throat": (-2 * CHIN, 0.0), "crown": (0.15, -0.05), "occiput": (0.02, -0.12),
+        }.items()
+    }  # fmt: skip
+    assert measured(**hole) == FaceShape()
+    low: dict[str, Any] = {"temple": (LEVEL, -0.07, -0.03), "beside": (0.4 * CHEEK, -0.07, BESIDE),
+           "nose": (0.0, -0.07, NOSE), "nostril": (0.0, -0.07, NOSE),
+           "crown": (0.0, -0.07, -0.05), "occiput": (0.0, -0.07, -0.12)}  # fmt: skip
+    assert measured(**low) == FaceShape()

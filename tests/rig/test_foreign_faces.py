@@ -307,3 +307,20 @@ def test_a_target_for_both_sides_stands_for_two_units_of_one_weight() -> None:
     assert map_face(["Blink"], {}, DATA, uneven, {}).expressed == {}
     sides = map_face(["Blink", "Blink_L", "Blink_R"], {}, DATA, both, {})
     assert sides.expressed["X"] == {"Blink_L": 0.8, "Blink_R": 0.8}
+
+
+def test_a_target_that_shows_a_unit_in_part_is_set_to_a_part_of_its_weight() -> None:
+    """A preset of a VRM may set half a target; two units may share one."""
+    said = {"aa": {"Mouth": 0.5}}
+    table = {"expressed": {"X": {"jawOpen": 0.8}}, "not_expressed": {}}
+    assert map_face(["Mouth"], said, DATA, table, {}).expressed == {"X": {"Mouth": 0.4}}
+
+
+@pytest.mark.parametrize(("other", "shown"), [(1.5, True), (1.7, False)])
+def test_a_target_for_both_sides_counts_as_two_units_of_what_is_shown(
+    other: float, shown: bool
+) -> None:
+    """Of two lids at .8 and a mouth that the face lacks, half is shown up to a mouth of 1.6."""
+    units = {"eyeBlinkLeft": 0.8, "eyeBlinkRight": 0.8, "mouthPucker": other}
+    table = {"expressed": {"X": units}, "not_expressed": {}}
+    assert ("X" in map_face(["Blink"], {}, DATA, table, {}).expressed) == shown

@@ -200,3 +200,37 @@ def test_a_chest_that_carries_the_legs_is_the_pelvis_and_no_part_of_the_back(bod
 def _above(parents: NDArray[np.int64], joint: int) -> list[int]:
     """All that a joint hangs on."""
     return [] if parents[joint] < 0 else [joint, *_above(parents, int(parents[joint]))]
+
+
+def test_a_digit_whose_joints_are_all_twists_leaves_the_others_alone(body: Body) -> None:
+    """Of the thumb, which is looked at first, nothing that bends is there."""
+    renamed = {f"LeftHandThumb{k}": f"LeftHandThumb{k}_end" for k in (1, 2, 3)}
+    found = _renamed(body, renamed)
+    assert not any(bone.startswith("thumb_L") for bone in found.bones)
+    assert {b for b in _renamed(body, {}).bones if not b.startswith("thumb_L")} == set(found.bones)
+
+
+def test_a_hand_without_a_thumb_has_its_fingers(body: Body) -> None:
+    found = _only(body, "LeftHandThumb", "Hips")
+    assert not any(bone.startswith("thumb_L") for bone in found.bones)
+    assert found.bones["index_L_1"] == ("LeftHandIndex1",)
+    assert found.bones["little_L_3"] == ("LeftHandPinky3",)
+
+
+def test_a_joint_between_the_chest_and_the_neck_belongs_to_the_neck(body: Body) -> None:
+    """Arms hang on the chest: what comes after it carries the head alone."""
+    names, parents, places = [*body.names, "Spine3"], [*body.parents], [*body.places]
+    chest, neck = names.index("Spine2"), names.index("Neck")
+    parents.append(chest)
+    places.append((places[chest] + places[neck]) / 2.0)
+    parents[neck] = len(names) - 1
+    found = propose(Tree(tuple(names), np.array(parents), np.array(places)))
+    assert found.bones["neck"] == ("Spine3", "Neck")
+    assert found.bones["back_1"] + found.bones["back_2"] == ("Spine", "Spine1", "Spine2")
+
+
+def test_an_arm_without_that_name_begins_at_the_joint_called_shoulder(body: Body) -> None:
+    found = _renamed(body, {"LeftArm": "LeftBlob"})
+    assert found.bones["arm_L"] == ("LeftShoulder", "LeftBlob")
+    assert found.bones["f_arm_L"] == ("LeftForeArm",)
+    assert "clav_L" not in found.bones

@@ -159,3 +159,35 @@ def test_toes_that_point_backwards_are_told(body: Body, ahead_m: float, doubted:
     )
     doubts = _doubts(walking, propose(_tree(walking)))
     assert any("the toes point backwards" in doubt for doubt in doubts) == doubted
+
+
+def test_a_body_in_the_air_and_beside_the_origin_is_set_down_on_it(body: Body) -> None:
+    """By its soles and its hips; its height and its lengths stay."""
+    off = np.array([0.7, 0.5, -0.9])
+    tree = Tree(body.names, np.array(body.parents), body.places + off)
+    stand = stand_up(tree, propose(tree), body.vertices + off, exactly=False)
+    points, hips = stand.points(body.vertices + off), body.names.index("Hips")
+    assert points[:, 1].min() == pytest.approx(0.0, abs=1e-6)
+    there = stand.points(tree.places)[hips]
+    assert there[[0, 2]] == pytest.approx([0.0, 0.0], abs=1e-6)
+    assert np.ptp(points, axis=0) == pytest.approx(np.ptp(body.vertices, axis=0))
+    assert stand.vectors(off) == pytest.approx(off)
+
+
+@pytest.mark.parametrize(("share", "refused"), [(1.05e-6, False), (0.95e-6, True)])
+def test_shoulders_a_millionth_of_the_body_apart_tell_its_left(
+    body: Body, share: float, refused: bool
+) -> None:
+    """Head and hips lie on a line; the arms begin beside it."""
+    places, at = np.array(body.places), {name: j for j, name in enumerate(body.names)}
+    apart = share * np.ptp(body.vertices)
+    places[at["Head"]] = places[at["Hips"]] + [0.0, 0.5, 0.0]
+    places[at["LeftArm"]] = places[at["Hips"]] + [apart, 0.4, 0.0]
+    places[at["RightArm"]] = places[at["Hips"]] + [0.0, 0.4, 0.0]
+    tree, bones = _tree(replace(body, places=places)), propose(_tree(body))
+    if refused:
+        with pytest.raises(BodyError, match="do not tell up from left"):
+            stand_up(tree, bones, body.vertices, exactly=False)
+    else:
+        stand = stand_up(tree, bones, body.vertices, exactly=False)
+        assert stand.vectors(np.array([1.0, 0.0, 0.0]))[0] > 0.0

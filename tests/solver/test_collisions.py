@@ -14,11 +14,14 @@ from stick_body import stick_body
 from tree_sign import S, W
 
 from azee_rig.rig import Capsules, Rig
+from azee_solver import penetration
 from azee_solver.anatomy import anatomy
 from azee_solver.binding import Binding
 from azee_solver.collisions import Obstacles, segment_distance
 from azee_solver.constraint import Constraint, Place
+from azee_solver.evaluate import evaluator
 from azee_solver.geometry import FreePoint, Side, Site, SitePoint
+from azee_solver.penetration import meant_contact, mesh_penetration
 from azee_solver.winding import distances, winding_numbers
 
 Array = NDArray[np.float64]
@@ -268,3 +271,29 @@ def test_distance_to_a_cube(point: tuple[float, float, float]) -> None:
     inside = min(np.minimum(p, 1 - p).min(), 1.0)
     wanted = outside if outside > 0 else inside
     assert distances(p, CUBE)[0] == pytest.approx(wanted, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("site", "other", "radius_m"),
+    [("PA", "ST", 0.055), ("I_TIP", "PA", 0.055), ("I_TIP", "ST", 0.02)],
+)
+def test_a_touch_is_meant_about_a_finger_and_farther_about_a_palm(
+    signer: Rig, site: str, other: str, radius_m: float
+) -> None:
+    """Whichever of the two sites lies on the palm."""
+    body, frames = evaluator(signer, Side.RIGHT), signer.chain.frames(signer.coordinates.idle)
+    on = SitePoint(Site(other, Side.LEFT if other == "PA" else None))
+    touch = meant_contact(body, frames, Place(Site(site, Side.RIGHT), on))
+    assert touch.radius_m == radius_m
+    np.testing.assert_allclose(touch.point, body.site(Site(site, Side.RIGHT), frames))
+
+
+@pytest.mark.parametrize(("winding", "inside"), [(0.48, False), (0.52, True)])
+def test_skin_is_inside_a_part_that_surrounds_it_more_than_half(
+    signer: Rig, winding: float, inside: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Parts are open where others go on, so that about a wrist there is something in between."""
+    monkeypatch.setattr(
+        penetration, "winding_numbers", lambda points, surface: np.full(len(points), winding)
+    )
+    assert bool(mesh_penetration(signer, np.array(signer.coordinates.idle))) == inside

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import pytest
 from tree_sign import S, along, tasks
@@ -9,6 +11,8 @@ from tree_sign import S, along, tasks
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver.binding import Binding
+from azee_solver.broadphase import Collisions
+from azee_solver.collisions import depths
 from azee_solver.constraint import BoneAxis, Constraint, Morph
 from azee_solver.geometry import Bone, Dir, Side
 from azee_solver.handshape import STRAIGHT, fitted, straight
@@ -134,6 +138,97 @@ def test_each_hand_is_fitted_by_itself_and_both_alike(signer: Rig) -> None:
     again = fitted(signer, found["R"])
     assert max(abs(again[v] - found["R"][v]) for v in again) < 0.1
     assert max(abs(found["R"][v] - asked["R"][v]) for v in again) < 0.5
+
+
+def asked_for(rig: Rig, weights: Mapping[str, float]) -> dict[int, float]:
+    """Angles of a right hand's presets, radians, by coordinate."""
+    found = {}
+    for name, weight in weights.items():
+        for v, angle in Binding(rig, Side.RIGHT).preset(Morph(name, S, weight)).items():
+            found[v] = straight(rig.coordinates.names[v]) + angle
+    return found
+
+
+def gap_m(rig: Rig, angles: Mapping[int, float], one: str, other: str) -> float:
+    """Distance of two capsules in a hand, metres."""
+    q = np.array(rig.coordinates.idle)
+    for v, angle in angles.items():
+        q[v] = angle
+    pair = [rig.capsules.names.index(one), rig.capsules.names.index(other)]
+    none = Collisions(np.array([pair]), np.zeros(1))
+    return -float(depths(rig, none, q)[0]) - float(rig.capsules.radius[pair].sum())
+
+
+@pytest.mark.parametrize(
+    ("shape", "one", "other", "margin_m"),
+    [
+        ("flat", "thumb_R_2", "hand_R_radial", 0.006),
+        ("fist", "thumb_R_3", "middle_R_2", 0.003),
+    ],
+)
+def test_a_thumb_gives_way_as_far_as_the_two_costs_balance(
+    signer: Rig, shape: str, one: str, other: str, margin_m: float
+) -> None:
+    """It stays 6 mm away from the palm and 3 from fingers; of that it lacks but a tenth.
+
+    A millimetre that it lacks costs 1, a squared radian away from the preset 4.
+    """
+    asked = asked_for(signer, SHAPES[shape])
+    found = fitted(signer, asked)
+    lacking = margin_m - gap_m(signer, found, one, other)
+    assert 0.0 < lacking < 0.15e-3
+    step = 1e-5
+    for v, angle in found.items():
+        if (
+            angle == asked[v]
+            or not signer.coordinates.lower[v] < angle < signer.coordinates.upper[v]
+        ):
+            continue
+        ahead, back = (
+            margin_m - gap_m(signer, found | {v: angle + by}, one, other) for by in (step, -step)
+        )
+        pushed = 1e6 * (ahead**2 - back**2) / (2 * step)
+        held = 2 * 4.0 * (angle - asked[v])
+        assert pushed == pytest.approx(-held, rel=0.03, abs=0.01)
+
+
+def test_a_thumb_that_need_hardly_move_stays(signer: Rig) -> None:
+    """By a ten-thousandth of a radian it moves, by less it does not."""
+    asked = asked_for(signer, SHAPES["flat"])
+    free = fitted(signer, asked)
+
+    def between(share: float) -> dict[int, float]:
+        return {v: angle + share * (free[v] - angle) for v, angle in asked.items()}
+
+    def moved(share: float) -> float:
+        start = between(share)
+        return max(abs(angle - start[v]) for v, angle in fitted(signer, start).items())
+
+    there, off = 0.9, 1.1
+    assert moved(there) > 0.0
+    assert moved(off) == 0.0
+    for _ in range(30):
+        middle = (there + off) / 2
+        there, off = (middle, off) if moved(middle) else (there, middle)
+    assert 1e-4 <= moved(there) < 1.05e-4
+
+
+def test_straight_fingers_are_as_people_hold_them(signer: Rig) -> None:
+    """The first, second and third joint of each, in degrees."""
+    angles = {
+        digit: [
+            round(float(np.degrees(straight(f"{digit}_{side}_{k}.flexion"))), 6) for k in (1, 2, 3)
+        ]
+        for digit in (*FINGERS, "thumb")
+        for side in "LR"
+    }
+    assert angles == {
+        "index": [3.0, 6.0, 4.0],
+        "middle": [3.0, 5.0, 4.0],
+        "ring": [3.0, 6.0, 4.0],
+        "little": [5.0, 8.0, 5.0],
+        "thumb": [0.0, 6.0, 6.0],
+    }
 
 
 def test_an_orientation_of_a_thumb_is_not_held_back_by_this(signer: Rig) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from azee_rig.rig import Rig
@@ -63,6 +65,13 @@ def test_a_limit_that_stops_a_constraint_less_than_another_is_told_after_it(sign
     assert found == {1: f"conflicts with `rotate !neck ^up 20`; besides, {limit}"}
 
 
+@pytest.mark.parametrize(("degrees", "first"), [(-51.0, "conflicts"), (-56.0, "the neck cannot")])
+def test_what_stops_the_larger_half_is_told_first(signer: Rig, degrees: float, first: str) -> None:
+    """Of a turn of 51° the limit stops 26°, and the other constraint a little more."""
+    found = reasons(signer, turn(NECK, UP, 20), turn(NECK, FORWARD, degrees))
+    assert found[1].startswith(first)
+
+
 def test_a_constraint_that_nothing_meets_does_not_exclude_others(signer: Rig) -> None:
     """The head cannot turn so far, whatever the hand, which is too far away, does."""
     found = reasons(
@@ -84,3 +93,18 @@ def test_the_body_is_named_where_it_stops_a_constraint(signer: Rig) -> None:
     found = reasons(signer, inside, *fixed)
     assert found[0].startswith("the body is in the way")
     assert "the trunk" in found[0]
+
+
+@pytest.mark.parametrize("lower_deg", [10.0, -10.0])
+def test_a_joint_at_its_lower_limit_is_told_on_whichever_side_that_is(
+    signer: Rig, lower_deg: float
+) -> None:
+    """The head of this body turns from 10° to the left, or to the right, and no farther back."""
+    c = signer.coordinates
+    axial = c.index["head.axial"]
+    lower, idle = np.array(c.lower), np.array(c.idle)
+    lower[axial], idle[axial] = math.radians(lower_deg), math.radians(lower_deg + 10.0)
+    body = replace(signer, coordinates=replace(c, lower=lower, idle=idle))
+    found = reasons(body, turn(HEAD, UP, lower_deg - 5.0))[0]
+    assert found.startswith("the head cannot turn further: it is at ")
+    assert found.endswith(" and needs 5.0° more")

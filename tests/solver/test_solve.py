@@ -361,6 +361,8 @@ def test_coordinates_that_are_held_are_said_to_be() -> None:
     )
     far = run(Place(Site("PA", S), FreePoint(-0.16, -0.05, 0.53)), fixed=stiff)
     assert reason(far) == ("needs the lower back, the upper back and the right forearm, held still")
+    beyond = run(Place(Site("PA", S), FreePoint(-0.16, -0.05, 3.0)), fixed=stiff)
+    assert reason(beyond).startswith("out of reach by "), "and would be if nothing were held"
     morph = run(
         Morph("index_bend", S, 0.5), fixed=frozenset({RIG.coordinates.index["index_R_1.flexion"]})
     )

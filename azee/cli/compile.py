@@ -85,7 +85,9 @@ if TYPE_CHECKING:
     help="Meet constraints at any price; by default the last centimetre and 5° are eased for "
     "comfort.",
 )
-@click.option("--no-life", is_flag=True, help="No breathing, no blinking and no sway.")
+@click.option(
+    "--no-life", is_flag=True, help="No breathing, no blinking and none of what bodies do besides."
+)
 @click.option(
     "--report",
     metavar="R.json",

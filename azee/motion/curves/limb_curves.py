@@ -2,7 +2,7 @@
 
 Curves run on coordinates, not on quaternions: every convex combination of two postures is inside
 the limits. Between two keys a limb moves by minimum jerk and stops at both. Keys inside a movement
-(samples of a path, keys added to meet a constraint) are passed without stopping, by the curve of
+(samples of a path) are passed without stopping, by the curve of
 minimum jerk through all of them (see `minimum_jerk`): the whole has a continuous acceleration and
 is still at both ends. Where such a curve overshoots the limits, it is clamped.
 

@@ -58,8 +58,6 @@ class Origin(Enum):
     """A block ends where another begins that no posture can join with it."""
     PATH = "path"
     """A sample of a controlled movement."""
-    ADDED = "added"
-    """The interpolated posture would not have met a constraint here."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -43,8 +43,8 @@ def on_living_body(planned: Plan, reference: Reference, seed: int | None) -> Pla
     """Return a plan whose paths start and end where the reference's body has their places.
 
     Keys are solved on a body without life. A path that starts at the chest starts a little
-    elsewhere if the chest breathes meanwhile. With a seed, no two paths take their time alike: a
-    movement that is repeated differs by 3 to 6 % of its way.
+    elsewhere if the chest breathes meanwhile. With a seed, no two paths take their time alike, as
+    nobody repeats a movement exactly.
     """
     monitor = planned.monitor
     chain = monitor.evaluator.rig.chain

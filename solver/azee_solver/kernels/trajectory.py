@@ -194,8 +194,9 @@ def project(words):
     row weights (T, R); how many entries of a tape are refilled (T,), which (T, K) and with what
     (T, K, 5); bands (order + 1, T) of Dᵀ D; s, lower, upper (n,); fixed (T, n); the shares
     σ and w_o, the relative gain that ends it and the first damping (4,); room: matrices (T, n, n),
-    band (T n, order n + 1), gradient, step, trial, spare (T, n) and (3, n); results: largest
-    miss (T,), value and steps (2,).
+    band (T n, order n + 1), gradient, step, trial, spare (T, n), and a pointer to nothing; results:
+    largest miss (T,), value and steps (2,); more room: (T, n) integers, (T n,), two of (n,)
+    integers, (T,), (n, n) integers.
     """
     w = carray(words, (35,))
     T, n, R, K, order, rounds = w[0], w[1], w[2], w[3], w[4], w[5]

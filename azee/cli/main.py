@@ -23,6 +23,7 @@ from azee.cli.console import DONE, FAULT, INTERRUPTED, show
 from azee.cli.find import find
 from azee.cli.fmt import fmt
 from azee.cli.lsp import lsp
+from azee.cli.manifest import manifest
 from azee.cli.render import render
 from azee.cli.repl import repl
 from azee.cli.retarget import retarget
@@ -50,6 +51,7 @@ azee.add_command(clip)
 azee.add_command(find)
 azee.add_command(lsp)
 azee.add_command(rules)
+azee.add_command(manifest)
 azee.add_command(rig)
 azee.add_command(retarget)
 azee.add_command(repl)

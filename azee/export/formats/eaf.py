@@ -30,6 +30,7 @@ from xml.etree.ElementTree import Element, SubElement
 from azee.export.files import replace_file
 from azee.export.score_layout import title
 from azee.export.track_rows import Row
+from azee.score.provenance import Provenance
 from azee.score.score import Group, Score
 
 SCHEMA = "http://www.mpi.nl/tools/elan/EAFv3.0.xsd"
@@ -79,15 +80,18 @@ def write_eaf(
     *,
     lead_s: float = 0.0,
     media: str | Path | None = None,
+    provenance: Provenance | None = None,
 ) -> None:
     """Write a score, and rows of tracks, as an ELAN file.
 
     Args: lead_s: start of the score in the film that belongs to it. media: that film, or a video of
-        a signer, as a path from the current folder.
+        a signer, as a path from the current folder. provenance: of the text; a property of the
+        file says how far its rules are known, and one names each library.
     Raises: OSError: the file cannot be written.
     """
     tiers = [*score_tiers(score, lead_s).all(), *track_tiers(rows, lead_s)]
-    document = _document(tiers, None if media is None else _media(Path(media), Path(path)))
+    described = None if media is None else _media(Path(media), Path(path))
+    document = _document(tiers, described, provenance)
     ElementTree.indent(document, "    ")
     with replace_file(path) as file:
         file.write(b'<?xml version="1.0" encoding="UTF-8"?>\n')
@@ -155,7 +159,9 @@ def _free(tier: Tier, note: Note) -> bool:
     return all(note.end_ms <= n.start_ms or n.end_ms <= note.start_ms for n in tier.notes)
 
 
-def _document(tiers: Sequence[Tier], media: dict[str, str] | None) -> Element:
+def _document(
+    tiers: Sequence[Tier], media: dict[str, str] | None, provenance: Provenance | None
+) -> Element:
     root = Element(
         "ANNOTATION_DOCUMENT",
         {
@@ -169,6 +175,8 @@ def _document(tiers: Sequence[Tier], media: dict[str, str] | None) -> Element:
     header = SubElement(root, "HEADER", {"MEDIA_FILE": "", "TIME_UNITS": "milliseconds"})
     if media is not None:
         SubElement(header, "MEDIA_DESCRIPTOR", media)
+    for name, value in _properties(provenance):
+        SubElement(header, "PROPERTY", {"NAME": name}).text = _NO_XML.sub("", value)
     last = SubElement(header, "PROPERTY", {"NAME": "lastUsedAnnotationId"})
     last.text = str(sum(len(tier.notes) for tier in tiers))
     notes = [(tier, note) for tier in tiers for note in sorted(tier.notes, key=_start)]
@@ -195,6 +203,14 @@ def _document(tiers: Sequence[Tier], media: dict[str, str] | None) -> Element:
     for stereotype, meaning in STEREOTYPES.items():
         SubElement(root, "CONSTRAINT", {"DESCRIPTION": meaning, "STEREOTYPE": stereotype})
     return root
+
+
+def _properties(provenance: Provenance | None) -> Iterator[tuple[str, str]]:
+    """Yield what a file says of the rules it comes from, by the names of properties."""
+    if provenance is not None:
+        yield "azee:provenance", provenance.text
+        for library in provenance.libraries:
+            yield f"azee:library:{library.name}", library.text
 
 
 def _slots(notes: Sequence[Note]) -> list[tuple[str, int]]:

@@ -223,4 +223,8 @@ FILM_SUFFIXES = (".mp4", ".webm")
 """Suffixes of films, which take longer and need the extra `film`."""
 RENDER_SUFFIXES = (".png", *FILM_SUFFIXES)
 """Suffixes of what shows the body: pictures and films."""
+CHART_SUFFIXES = (".svg", ".png", ".pdf")
+"""Suffixes of charts of a corpus, which need the extra `charts`."""
+CORPUS_SUFFIXES = (".csv", ".json", *CHART_SUFFIXES)
+"""Suffixes of what the counts of a corpus can be written as."""
 WRITERS |= dict.fromkeys(FILM_SUFFIXES, _film)

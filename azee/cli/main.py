@@ -20,6 +20,7 @@ from azee.cli.check import check
 from azee.cli.clip import clip
 from azee.cli.compile import compile_
 from azee.cli.console import DONE, FAULT, INTERRUPTED, show
+from azee.cli.corpus import corpus
 from azee.cli.find import find
 from azee.cli.fmt import fmt
 from azee.cli.lsp import lsp
@@ -49,6 +50,7 @@ azee.add_command(score)
 azee.add_command(render)
 azee.add_command(clip)
 azee.add_command(find)
+azee.add_command(corpus)
 azee.add_command(lsp)
 azee.add_command(rules)
 azee.add_command(manifest)

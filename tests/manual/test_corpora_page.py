@@ -15,6 +15,7 @@ from azee.cli.main import run
 BLOCKS = list(blocks((ROOT / "docs" / "corpora.md").read_text(encoding="utf-8")))
 COMMANDS = [block for block in BLOCKS if block.kind == "console"]
 EXAMPLES = {
+    "cinema-good.azee",
     "person-aged-52.azee",
 }
 

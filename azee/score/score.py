@@ -19,10 +19,14 @@ from azee_solver.constraint import Constraint, Origin
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """The rule application that a score came from."""
+    """The rule application that a score came from.
+
+    handed_over: whether the rule was an argument, such as `.nb-5`, of what applied it.
+    """
 
     rule: str
     origin: Origin | None = field(default=None, compare=False)
+    handed_over: bool = field(default=False, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

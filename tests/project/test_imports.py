@@ -72,10 +72,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     },
     "azee.animation": {"azee.clip", "azee.motion", "azee.quality", "azee.score"}
     | {"azee_solver", "azee_rig", "numpy"},
-    "azee.export": {"azee.score", "azee.motion.tasks", "azee_rig"} | DECLARATIONS,
+    "azee.export": {"azee.score", "azee.motion.tasks", "azee_grammar", "azee_rig"} | DECLARATIONS,
     "azee.export.formats": {
         *("azee.export.files", "azee.export.score_layout", "azee.export.track_rows"),
-        *("azee.clip", "azee.score", "azee_rig", "numpy"),
+        *("azee.export.articulators", "azee.clip", "azee.score", "azee_rig", "numpy"),
         *DECLARATIONS,
     },
     "azee.export.pictures": {

@@ -7,6 +7,7 @@ import shlex
 import shutil
 from pathlib import Path
 
+import pympi
 import pytest
 from pages import ROOT, Block, blocks
 
@@ -16,6 +17,7 @@ BLOCKS = list(blocks((ROOT / "docs" / "corpora.md").read_text(encoding="utf-8"))
 COMMANDS = [block for block in BLOCKS if block.kind == "console"]
 EXAMPLES = {
     "cinema-good.azee",
+    "not-but.azee",
     "person-aged-52.azee",
 }
 
@@ -29,6 +31,15 @@ def _prepare(folder: Path) -> None:
         if name := block.options.get("file"):
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(block.text, encoding="utf-8")
+
+
+def _record(path: Path) -> None:
+    """Annotate a recording as the page says; ours is made with pympi, not with our writer."""
+    file = pympi.Elan.Eaf()
+    file.add_tier("RH")
+    for start, end, text in ((2100, 2760, "ARBRE"), (3000, 3200, "PAS"), (3320, 4980, "ARMOIRE")):
+        file.add_annotation("RH", start, end, text)
+    file.to_file(str(path))
 
 
 def _said(block: Block, capsys: pytest.CaptureFixture[str]) -> tuple[str, str]:
@@ -45,6 +56,7 @@ def test_every_command_prints_what_the_page_shows(
 ) -> None:
     """The commands run one after the other, as a reader would type them."""
     _prepare(tmp_path)
+    _record(tmp_path / "recording.eaf")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "120")
     assert len(COMMANDS) > 3

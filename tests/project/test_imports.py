@@ -39,7 +39,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee_solver.surfaces": {"azee_rig", "azee_solver", "numba"},
     "azee.score": DECLARATIONS,
     "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
-    "azee.corpus": {"azee.lang", "azee.export.files", "azee.wording", "matplotlib"},
+    "azee.corpus": {"azee.lang", "azee.export.files", "azee.wording", "matplotlib", "pympi"},
     "azee.assist": {"azee_grammar", "azee.lang", "azee.score"} | DECLARATIONS,
     "azee.clip": {"azee_rig", "numpy"},
     "azee.motion.tasks": {"azee.clip", "azee.score", "azee_solver", "azee_rig", "numpy"},

@@ -40,6 +40,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("repl",): {"lark"},
     ("rig", "--help"): set(),
     ("corpus", "stats", "--help"): set(),
+    ("elan", "compare", "--help"): set(),
     ("rig", "sites", "--format", "json"): {"numpy"},
     ("check", "--quiet", "text.azee"): {"lark"},
     ("check", "--format", "json", "text.azee"): {"lark"},

@@ -158,3 +158,14 @@ def test_annotations_of_a_tier_are_apart_and_inside_the_score(score: Score) -> N
         assert notes
         assert all(0 <= note.start_ms < note.end_ms <= end_ms for note in notes)
         assert all(a.end_ms <= b.start_ms for a, b in pairwise(notes))
+
+
+def test_a_mouthing_has_its_text_and_its_sounds_and_no_part_of_the_face(tmp_path: Path) -> None:
+    text = SIGN.format("tea") + 'with-mouth(:tea, mouthing("thé"))\n'
+    found = tiers_of(text, tmp_path)
+    assert found["mouthing"] == [(0, 500, "thé")]
+    assert found["mouthing sounds"] == [(0, 200, "t"), (200, 500, "e")]
+    assert texts(found, "gloss") == ["tea"]
+    assert texts(found, "rule with-mouth") == ["tea"]
+    assert "face" not in found
+    assert not any("mouthing" in name for name in found if name.startswith("rule"))

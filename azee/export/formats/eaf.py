@@ -21,7 +21,14 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 from azee.export.files import replace_file
-from azee.export.formats.eaf_content import ARTICULATOR, GLOSS, RULE, content_tiers
+from azee.export.formats.eaf_content import (
+    ARTICULATOR,
+    GLOSS,
+    MOUTHING,
+    RULE,
+    SOUNDS,
+    content_tiers,
+)
 from azee.export.formats.eaf_tiers import (
     INNER,
     TRACK,
@@ -106,7 +113,7 @@ def _document(
             element, "ALIGNABLE_ANNOTATION", {"ANNOTATION_ID": f"a{number}", **known}
         )
         SubElement(annotation, "ANNOTATION_VALUE").text = note.text
-    for kind in (WHOLE, GLOSS, ARTICULATOR, RULE, INNER, TRACK):
+    for kind in (WHOLE, GLOSS, MOUTHING, SOUNDS, ARTICULATOR, RULE, INNER, TRACK):
         constraint = {"CONSTRAINTS": "Included_In"} if kind == INNER else {}
         known = {
             "GRAPHIC_REFERENCES": "false",

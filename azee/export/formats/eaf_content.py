@@ -15,11 +15,13 @@ from functools import cached_property
 from azee.export.articulators import ARTICULATORS, CHANNEL, articulator_of
 from azee.export.formats.eaf_tiers import Note, Tier, in_lanes, note_of
 from azee.score.interval import Interval
-from azee.score.score import Call, Group, Hold, Key, Score, leaves
+from azee.score.score import Call, Group, Hold, Key, Score, is_mouthing, leaves
 from azee_solver.notation import constraint_text
 
 GLOSS, ARTICULATOR, RULE = "gloss", "articulator", "rule"
 """Linguistic types: names of signs, what a part of the signer does, where a rule is applied."""
+MOUTHING, SOUNDS = "mouthing", "mouthing sounds"
+"""Linguistic types: what the mouth says, and its sounds in SAMPA."""
 HANDS_CHANNEL = "hands"
 
 
@@ -86,17 +88,38 @@ def content_tiers(score: Score, lead_s: float = 0.0) -> list[Tier]:
     """Return the tiers of a score by content; `lead_s` is the time of its start."""
     start = Fraction(lead_s)
     root = Node("", score, Interval(start, start + score.duration), None, _texts(score))
-    return [*_gloss_tiers(root), *_articulator_tiers(root), *_rule_tiers(root)]
+    return [
+        *_gloss_tiers(root),
+        *_mouthing_tiers(root),
+        *_articulator_tiers(root),
+        *_rule_tiers(root),
+    ]
 
 
 def _gloss_tiers(root: Node) -> list[Tier]:
     return in_lanes(GLOSS, GLOSS, (_note(sign.gloss, sign) for sign in root.signs))
 
 
+def _mouthing_tiers(root: Node) -> list[Tier]:
+    said: list[Note] = []
+    sounds: list[Note] = []
+    for node in root.all():
+        if is_mouthing(node.score):
+            text = next(c.mouthed for c in node.score.calls if c.mouthed is not None)
+            said.append(_note(text, node))
+            sounds += (_note(sound.name, sound) for sound in node.inner)
+    return [
+        *in_lanes(MOUTHING, MOUTHING, sorted(said, key=_start)),
+        *in_lanes(SOUNDS, SOUNDS, sorted(sounds, key=_start)),
+    ]
+
+
 def _articulator_tiers(root: Node) -> list[Tier]:
     found: dict[str, list[Note]] = {}
     sign_of = {id(node): sign for sign in root.signs for node in sign.all()}
     for node in root.all():
+        if node.around is not None and is_mouthing(node.around.score):
+            continue
         for part, text in _actions(node, sign_of.get(id(node))):
             found.setdefault(part, []).append(_note(text, node))
     return [
@@ -139,7 +162,7 @@ def _rule_tiers(root: Node) -> list[Tier]:
     signs = set(map(id, root.signs))
     for node in root.all():
         for call in node.score.calls:
-            if id(node) not in signs and node.wrote(call):
+            if id(node) not in signs and call.mouthed is None and node.wrote(call):
                 said = " ".join(sign.gloss for sign in node.signs)
                 found.setdefault(call.rule, []).append(_note(said or call.rule, node))
     return [tier for rule in found for tier in in_lanes(f"{RULE} {rule}", RULE, found[rule])]

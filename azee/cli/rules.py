@@ -168,8 +168,9 @@ def _added(folders: Sequence[Path]) -> tuple[dict[str, list[Rule]], list[Diagnos
 
 
 def _is_sound(rule: Rule) -> bool:
-    """Whether a rule that was resolved has a body without mistakes."""
-    return rule.definition.body is not None and not rule.diagnostics
+    """Whether a rule that was resolved has a body without mistakes; warnings are none."""
+    mistakes = any(found.severity is Severity.ERROR for found in rule.diagnostics)
+    return rule.definition.body is not None and not mistakes
 
 
 def _by_name(namespace: Namespace) -> list[Rule]:

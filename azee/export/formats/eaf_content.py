@@ -134,19 +134,19 @@ def _actions(node: Node, sign: Node | None) -> Iterator[tuple[str, str]]:
 
     sign: the one that the leaf is of.
     """
-    match node.score:
-        case Key(constraints=constraints):
-            texts: dict[str, list[str]] = {}
-            for constraint in constraints:
-                part = articulator_of(constraint)
-                texts.setdefault(part, []).append(constraint_text(constraint))
-            for part, said in texts.items():
-                yield part, _hand_text(node, sign) if part.endswith("hand") else "; ".join(said)
-        case Hold(block=block, channels=channels) if node.around is not None:
-            held = next((n for n in node.around.inner if n.name == block), None)
-            for part in sorted(held.moves if held else ()):
-                if CHANNEL.get(part, HANDS_CHANNEL) in channels:
-                    yield part, f"hold {held.gloss if held else block}"
+    score = node.score
+    if isinstance(score, Key):
+        texts: dict[str, list[str]] = {}
+        for constraint in score.constraints:
+            part = articulator_of(constraint)
+            texts.setdefault(part, []).append(constraint_text(constraint))
+        for part, said in texts.items():
+            yield part, _hand_text(node, sign) if part.endswith("hand") else "; ".join(said)
+    elif isinstance(score, Hold) and node.around is not None:
+        held = next((n for n in node.around.inner if n.name == score.block), None)
+        for part in sorted(held.moves if held else ()):
+            if CHANNEL.get(part, HANDS_CHANNEL) in score.channels:
+                yield part, f"hold {held.gloss if held else score.block}"
 
 
 def _hand_text(node: Node, sign: Node | None) -> str:

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.machine_code import Kernel
+from azee_solver.block import BAND_PAD
 from azee_solver.program import Program
 
 Array = NDArray[np.float64]
@@ -163,7 +164,7 @@ class Trajectory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Room:
-    """What the kernel works in: matrices, band, gradient, step, trial, spare, nothing; and words.
+    """What the kernel works in: matrices, band, gradients, step, trial, spare, nothing; and words.
 
     It is made once for all windows: fresh pages of memory cost as much as a step.
     """
@@ -176,9 +177,10 @@ class _Room:
     def of(count: int, n: int) -> _Room:
         """Make room for windows of so many frames and n coordinates."""
         reals = [
-            np.empty(count * n * n),
-            np.empty(count * n * (ORDER * n + 1)),
-            *(np.empty(count * n) for _ in range(4)),
+            np.empty(2 * count * n * n),
+            np.empty(count * n * (ORDER * n + 1 + BAND_PAD)),
+            np.empty(2 * count * n),
+            *(np.empty(count * n) for _ in range(3)),
             np.empty(0),
         ]
         sizes = (count * n, n, n, n * n)

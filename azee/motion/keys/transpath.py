@@ -26,6 +26,7 @@ from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
+from azee_solver import kinematics
 from azee_solver.constraint import LookAt, Place, Transpath
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Bone, Point, Side, WorldPoint, depends_on
@@ -254,7 +255,7 @@ def anchor(
         motion: PathMotion, placement: TimedTask | None, key: KeyPosture | None, time: Fraction
     ) -> PathEnd:
         q = movement.sample(np.array([float(time)]))[0] if key is None else key.coordinates
-        frames = evaluator.rig.chain.frames(q)
+        frames = kinematics.frames(evaluator.rig.chain, q)
         world = evaluator.site(motion.constraint.site, frames)
         if placement is None or key is None:
             return PathEnd(time, world)

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.rig import Rig
+from azee_solver import kinematics
 
 Array = NDArray[np.float64]
 
@@ -99,7 +100,7 @@ def _breath(times_s: Array, rng: np.random.Generator) -> Array:
 def _with_hands(rig: Rig, q: Array, times_s: Array) -> dict[str, Array]:
     """Return what trunk and head do as the hands move, by coordinate, (T,) radians."""
     palms = [rig.bones[name].node for name in ("palm_L", "palm_R") if name in rig.bones]
-    hands = rig.chain.frames(q).positions[:, palms].mean(axis=1)
+    hands = kinematics.frames(rig.chain, q).positions[:, palms].mean(axis=1)
     fps = (len(times_s) - 1) / (times_s[-1] - times_s[0])
     away = _low_passed(hands - hands[0], FOLLOWING_HZ, fps)
     out = {name: np.radians(away @ np.array(gains)) for name, gains in FOLLOWING_DEG_M.items()}

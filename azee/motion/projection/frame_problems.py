@@ -21,6 +21,7 @@ from azee.motion.tasks.limbs import CARRIERS, TRUNK, is_finger, limb_of_coordina
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
 from azee_rig.rig import Rig
+from azee_solver import kinematics
 from azee_solver.anatomy import anatomy
 from azee_solver.body import Body
 from azee_solver.broadphase import Collisions
@@ -209,7 +210,7 @@ class FrameProblems:
         if not moving:
             return
         on_paths = [p.entry for p in self._paths(problem, rows, times)]
-        frames = self.monitor.evaluator.rig.chain.frames(q[rows])
+        frames = kinematics.frames(self.monitor.evaluator.rig.chain, q[rows])
         numbers = []
         for k, t in enumerate(rows):
             tape = self._tape(Frames(frames.positions[k], frames.rotations[k]))
@@ -265,7 +266,7 @@ class _Refilling:
                     rows = [t for t in times if t in frames]
                     if not rows:
                         continue
-                    body = body or self.evaluator.rig.chain.frames(q)
+                    body = body or kinematics.frames(self.evaluator.rig.chain, q)
                     here = [t - frames.start for t in rows]
                     then = Frames(body.positions[here], body.rotations[here])
                     points = path.targets([times[t] for t in rows], then, self.evaluator)

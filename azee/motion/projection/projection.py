@@ -15,6 +15,7 @@ from azee.motion.keys.residual_monitor import MovementSamples
 from azee.motion.keys.transpath import PathEnd
 from azee.motion.projection.frame_problems import FrameProblems
 from azee_rig.chain import Frames
+from azee_solver import kinematics
 from azee_solver.options import SolveOptions
 
 Array = NDArray[np.float64]
@@ -52,7 +53,7 @@ def on_living_body(planned: Plan, reference: Reference, seed: int | None) -> Pla
 
     def carried(end: PathEnd) -> PathEnd:
         q = reference.q[int(np.abs(seconds - float(end.time)).argmin())]
-        return end.carried(chain.frames(q), monitor.evaluator)
+        return end.carried(kinematics.frames(chain, q), monitor.evaluator)
 
     paths = {}
     for n, (rank, path) in enumerate(sorted(monitor.paths.items())):

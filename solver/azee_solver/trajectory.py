@@ -150,8 +150,7 @@ class Trajectory:
                 T, n, weights.shape[1], refills.entries.shape[1], ORDER, stage.steps, blocks,
                 x, reference, keep, weights, refills.counts, refills.entries, refills.numbers,
                 bands, self.smooth, self.lower, self.upper, fixed, options, *room.reals,
-                misses[0], result, *room.integers[:1], room.spare, *room.integers[1:3], misses[1],
-                room.integers[3],
+                misses[0], result, *room.integers[:3], misses[1], room.integers[3],
             )  # fmt: skip
             return math.sqrt(float(misses[0].max(initial=0.0)))
 
@@ -170,7 +169,6 @@ class _Room:
     """
 
     reals: Sequence[Array]
-    spare: Array
     integers: Sequence[Ints]
 
     @staticmethod
@@ -184,7 +182,7 @@ class _Room:
             np.empty(0),
         ]
         sizes = (count * n, n, n, n * n)
-        return _Room(reals, np.empty(count * n), [np.empty(k, dtype=np.int64) for k in sizes])
+        return _Room(reals, [np.empty(k, dtype=np.int64) for k in sizes])
 
 
 def _weights(programs: Sequence[Program]) -> Array:

@@ -22,6 +22,7 @@ from azee.motion.keys.transpath import (
 )
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.key_posture import KeyPosture, Origin
+from azee_solver import kinematics
 
 CLOSEST_S = 0.003
 """Keys nearer to another than this would only make the movement shake."""

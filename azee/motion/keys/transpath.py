@@ -127,15 +127,23 @@ class AnchoredPath:
     start: PathEnd
     end: PathEnd
 
+    @property
+    def reads_body(self) -> bool:
+        """Whether the path hangs on the posture."""
+        return bool(self.motion.task.reads)
+
     def targets(self, times: Sequence[Fraction], frames: Frames, evaluator: Evaluator) -> Array:
         """Return where the site should be at times, (T, 3); frames (T, …) of the body then."""
         progress = np.array([self.motion.progress(t) for t in times])
-        path, reads_body = self.motion.constraint.path, bool(self.motion.task.reads)
-        ends = self.start.world, self.end.world
-        if not reads_body:
+        return self.targets_at(progress, frames, evaluator)
+
+    def targets_at(self, progress: Array, frames: Frames, evaluator: Evaluator) -> Array:
+        """Return where the site is after shares (T,) of its way, (T, 3); frames (T, …) then."""
+        path, ends = self.motion.constraint.path, (self.start.world, self.end.world)
+        if not self.reads_body:
             one = Frames(frames.positions[:1], frames.rotations[:1])
             return np.asarray(evaluator.path(path, *ends, progress, one).reshape(-1, 3))
-        out = np.empty((len(times), 3))
+        out = np.empty((len(progress), 3))
         for i, s in enumerate(progress):
             now = Frames(frames.positions[i], frames.rotations[i])
             out[i] = evaluator.path(path, *ends, float(s), now)

@@ -1,6 +1,7 @@
 """Cholesky's factor of a symmetric matrix with a band, and what it solves.
 
-Row r of a band holds the entries (r, r), (r, r + 1), … (r, r + w) of the matrix, then `BAND_PAD` zeros.
+Row r of a band holds the entries (r, r), (r, r + 1), … (r, r + w) of the matrix, and then
+`BAND_PAD` zeros.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ LEAST_PIVOT = 1e-300
 
 @njit(**INNER)
 def factorise(band, width):
-    """Replace a band (N, w + 1 + PAD) of A by that of Lᵀ, with A = L Lᵀ (Golub & Van Loan 2013, 4.3).
+    """Replace a band (N, w + 1 + PAD) of A by that of Lᵀ; A = L Lᵀ (Golub & Van Loan 2013, 4.3).
 
     Args: width: w + 1.
     """

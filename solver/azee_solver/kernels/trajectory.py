@@ -195,13 +195,12 @@ def project(words):
     Words: T, n, R, K, order, most steps; blocks (T,) of all n coordinates; x, ref, keep (T, n);
     row weights (T, R); how many entries of a tape are refilled (T,), which (T, K) and with what
     (T, K, 5); bands (order + 1, T) of Dᵀ D; s, lower, upper (n,); fixed (T, n); the shares
-    σ and w_o, the relative gain that ends it and the first damping (4,); room: matrices (2, T, n, n),
-    band (T n, order n + 1 + BAND_PAD), gradients (2, T, n), step, trial, spare (T, n), and a pointer to
-    nothing; results:
-    largest miss (T,), value and steps (2,); more room: (T, n) integers, (T n,), two of (n,)
-    integers, (T,), (n, n) integers.
+    σ and w_o, the relative gain that ends it and the first damping (4,); room: matrices
+    (2, T, n, n), band (T n, order n + 1 + BAND_PAD), gradients (2, T, n), step, trial, spare
+    (T, n), and a pointer to nothing; results: largest miss (T,), value and steps (2,); more room:
+    (T, n) integers, two of (n,) integers, (T,), (n, n) integers.
     """
-    w = carray(words, (35,))
+    w = carray(words, (34,))
     T, n, R, K, order, rounds = w[0], w[1], w[2], w[3], w[4], w[5]
     blocks = integers(w[6], (T,))
     x, ref, keep = reals(w[7], (T, n)), reals(w[8], (T, n)), reals(w[9], (T, n))
@@ -212,12 +211,12 @@ def project(words):
     fixed, options = integers(w[18], (T, n)), reals(w[19], (4,))
     hessians = reals(w[20], (2, T, n, n))
     gradients, step = reals(w[22], (2, T, n)), reals(w[23], (T, n))
-    trial, spare = reals(w[24], (T, n)), reals(w[25], (T, n))
+    trial = reals(w[24], (T, n))
     misses, result = reals(w[27], (T,)), reals(w[28], (2,))
     nothing = reals(w[26], (0, 0))
     stuck = integers(w[29], (T, n))
-    component, members = integers(w[31], (n,)), integers(w[32], (n,))
-    trial_misses, coupled = reals(w[33], (T,)), integers(w[34], (n, n))
+    component, members = integers(w[30], (n,)), integers(w[31], (n,))
+    trial_misses, coupled = reals(w[32], (T,)), integers(w[33], (n, n))
     damping, growth = options[3], 2.0
     value, steps, now = np.inf, 0, 0
     for t in range(T):
@@ -270,7 +269,7 @@ def project(words):
             if component[c] == c:
                 _step(
                     c, component, members, hessians[now], gradients[now], bands, smooth, stuck,
-                    damping, w[21], w[30], step,
+                    damping, w[21], w[25], step,
                 )  # fmt: skip
         for t in range(T):
             for k in range(n):

@@ -44,7 +44,7 @@ ORDER = 2
 SMOOTH_S = 0.06
 """A displacement that lasts shorter than about this costs more in F by its differences than by its
 size: s_v = λ_v (SMOOTH_S · frames per second)²ᵏ."""
-WINDOW_S, AHEAD_S = 1.5, 0.4
+WINDOW_S, AHEAD_S = 1.5, 0.3
 """Length of a window, and how far it looks ahead."""
 
 
@@ -68,7 +68,7 @@ NEAR = 30.0
 """A reference that misses by more tolerances is first drawn near softly: a stiff start from there
 ends in bad minima."""
 SOFT = Stage(1e-3, 1e-3, 6, 0.1)
-WHOLE = Stage(1.0, 1.0, 14, 0.03)
+WHOLE = Stage(1.0, 1.0, 14, 0.05)
 MET_SHARE = 0.7
 """What is still missed by more than this share of a tolerance is met more firmly at the end."""
 FIRM = Stage(4.0, 0.1, 6, 0.02)

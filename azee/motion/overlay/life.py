@@ -32,7 +32,7 @@ DRIFT_HZ = (0.12, 2.2)
 SLOW_DRIFT_HZ = (0.1, 0.9)
 _SINES = 9
 DRIFT_DEG: Mapping[str, float] = {
-    "back": 0.35, "neck": 0.6, "head": 0.7, "eye": 0.12, "clav": 0.35, "arm": 0.4, "f_arm": 0.4,
+    "back": 0.35, "neck": 0.5, "head": 0.6, "eye": 0.12, "clav": 0.35, "arm": 0.4, "f_arm": 0.4,
     "palm": 0.4,
 }  # fmt: skip
 """Root mean square of the drift of coordinates, by the beginning of their bones' names."""

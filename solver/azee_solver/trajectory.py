@@ -142,9 +142,8 @@ class Trajectory:
         bands = _difference_bands(T)
         misses, result = np.empty((2, T)), np.empty(2)
 
-        def take(stage: Stage) -> float:
+        def take(stage: Stage, refills: Refills) -> float:
             """Take a stage's steps; return the largest miss that is left, in tolerances."""
-            refills = self.refilled(frames, x)
             options = np.array([stage.misses, stage.overlaps * self.overlap, stage.tolerance, 1e-4])
             _PROJECT(
                 T, n, weights.shape[1], refills.entries.shape[1], ORDER, stage.steps, blocks,
@@ -154,10 +153,12 @@ class Trajectory:
             )  # fmt: skip
             return math.sqrt(float(misses[0].max(initial=0.0)))
 
-        if take(LOOK) > NEAR:
-            take(SOFT)
-        if take(WHOLE) > MET_SHARE:
-            take(FIRM)
+        refills = self.refilled(frames, x)
+        if take(LOOK, refills) > NEAR:
+            take(SOFT, refills)
+            refills = self.refilled(frames, x)
+        if take(WHOLE, refills) > MET_SHARE:
+            take(FIRM, self.refilled(frames, x))
         return x
 
 

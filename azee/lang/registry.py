@@ -12,6 +12,7 @@ from azee.lang.operators import (
     language,
     lists,
     rules,
+    score_changes,
     scores,
     sides,
     texts,
@@ -19,6 +20,17 @@ from azee.lang.operators import (
 
 NATIVES: Mapping[str, Native] = {
     native.name: native
-    for module in (language, kinds, lists, texts, rules, geometry, constraints, scores, sides)
+    for module in (
+        language,
+        kinds,
+        lists,
+        texts,
+        rules,
+        geometry,
+        constraints,
+        scores,
+        score_changes,
+        sides,
+    )
     for native in module.OPERATORS
 }

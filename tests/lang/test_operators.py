@@ -279,6 +279,26 @@ def test_lists(expression: str, expected: list[object]) -> None:
     assert _numbers(value(expression, definitions)) == expected
 
 
+def test_the_elements_of_a_list_stand_deeper_than_its_line() -> None:
+    definitions = "def all\n    azop 'items 'nodefault 'gap .2 seq(^items, 'gap = ^gap)\n"
+    in_lines = """:all
+    'items list
+        :info-about
+            'topic :all
+                'items list
+                    :bien
+                    :arbre
+                        'loc ^Lssp
+            'info :chat
+        :mignon
+    'gap .1
+"""
+    inner = "info-about(all(list(:bien, arbre(^Lssp))), :chat)"
+    assert content(in_lines, definitions) == content(
+        f"all(list({inner}, :mignon), .1)", definitions
+    )
+
+
 def test_fold_goes_from_the_left() -> None:
     definitions = "def minus\n    azop 'a 'nodefault 'b 'nodefault sub(^a, ^b)\n"
     assert content("fold .minus 10 (list 1 2 3)", definitions) == 4

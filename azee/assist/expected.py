@@ -22,6 +22,7 @@ _ENTRIES = {
     "meaning": "what the rule says",
     "source": "who described it, and where",
     "example": "an expression that shows it",
+    "refers": "arguments that are places where something was put before",
 }
 
 

@@ -15,6 +15,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.score.score import SIDE_CHANNELS
 from azee_rig.coordinates import Coordinates
 from azee_solver.binding import Binding
 from azee_solver.constraint import (
@@ -128,7 +129,14 @@ def limb_of_constraint(constraint: Constraint, binding: Binding) -> str:
             return limb_of_coordinate(next(iter(angles)))
 
 
-def channel_of_constraint(constraint: Constraint, binding: Binding) -> str:
-    """Channel that a hold must name to keep a constraint."""
+def channels_of_constraint(constraint: Constraint, binding: Binding) -> frozenset[str]:
+    """Channels of which a hold must name one to keep a constraint: for a hand also its side's."""
     limb = limb_of_constraint(constraint, binding)
-    return limb if limb == "face" else channel_of_limb(limb)
+    if limb == "face" or channel_of_limb(limb) != "hands":
+        return frozenset({limb})
+    sides = {
+        name
+        for name, side in SIDE_CHANNELS.items()
+        if limb.endswith(f"_{side.bound(binding.dominant).value}")
+    }
+    return frozenset({"hands", *sides})

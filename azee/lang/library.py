@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from pathlib import Path
 
+from azee.lang.places import declare_places, utterances
 from azee.lang.resolve import Resolving
 from azee.lang.rule import Rule, is_azop
 from azee.lang.scope import Namespace, Scope
@@ -102,7 +103,7 @@ class Librarian:
 
         Without any `use`, the default library is in scope.
         """
-        scope = Scope(namespace, self._core)
+        scope = Scope(namespace, self._core, shipped=_shipped_rules)
         problems: list[Diagnostic] = []
         uses = [item for item in file.items if isinstance(item, Use)]
         for use in uses:
@@ -188,6 +189,7 @@ class Librarian:
         library.diagnostics += define(
             library.namespace, definitions(parsed.file), scope, self._resolving
         )
+        library.diagnostics += declare_places(parsed.file, scope, self._resolving)
 
     def _missing(self, use: Use, folder: Path | None) -> Diagnostic:
         name = use.library.name
@@ -260,7 +262,7 @@ def _unreadable(folder: Path, problem: OSError) -> Diagnostic:
 
 
 def _has_utterances(file: File) -> bool:
-    return any(isinstance(item, Utterance) for item in file.items)
+    return any(True for _ in utterances(file))
 
 
 @lru_cache(maxsize=256)
@@ -295,7 +297,7 @@ def shipped_library(name: str) -> Library:
         source = Source(f"{name}/{path.name}", read_source(path).text)
         parsed = parse(source)
         library.diagnostics += parsed.diagnostics
-        scope = Scope(library.namespace, core)
+        scope = Scope(library.namespace, core, shipped=_shipped_rules)
         for item in parsed.file.items:
             if isinstance(item, Use):
                 scope.libraries.append(shipped_library(item.library.name).namespace)
@@ -303,3 +305,7 @@ def shipped_library(name: str) -> Library:
             library.namespace, definitions(parsed.file), scope, SHIPPED_RESOLVING
         )
     return library
+
+
+def _shipped_rules(name: str) -> Namespace | None:
+    return shipped_library(name).namespace if name in shipped_names() else None

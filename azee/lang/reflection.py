@@ -8,11 +8,10 @@ about `a` by φ becomes one about Ma by −φ.
 from __future__ import annotations
 
 import re
-from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
-from azee.score.score import Group, Key, Score
+from azee.score.score import SIDE_CHANNELS, Group, Hold, Key, Score
 from azee_grammar import vocabulary
 from azee_solver.constraint import (
     Constraint,
@@ -63,21 +62,21 @@ class NoMirrorImage(Exception):  # noqa: N818 - what it says is a fact about a m
     """A morph of one side that the other side lacks."""
 
 
-class Change(ABC):
-    """A change of sides, applied to everything in a score."""
+class Change:
+    """A change applied to everything in a score; sides and places stay, unless it changes them."""
 
     __slots__ = ()
 
-    @abstractmethod
     def side(self, side: Side) -> Side:
         """Return the new side for a side."""
+        return side
 
-    @abstractmethod
     def place(self, place: SigningSpace) -> SigningSpace:
         """Return the new place for a named place."""
+        return place
 
     def score(self, score: Score) -> Score:
-        """Return the score with every side changed; times stay."""
+        """Return the score with all its constraints changed; times stay."""
         if isinstance(score, Key):
             return replace(score, constraints=tuple(self.constraint(c) for c in score.constraints))
         if isinstance(score, Group):
@@ -85,10 +84,18 @@ class Change(ABC):
             for block in score.blocks:
                 blocks.append(replace(block, score=self.score(block.score)))
             return replace(score, blocks=tuple(blocks))
+        if isinstance(score, Hold):
+            return replace(score, channels=tuple(self._channel(name) for name in score.channels))
         return score
 
+    def _channel(self, name: str) -> str:
+        if name not in SIDE_CHANNELS:
+            return name
+        side = self.side(SIDE_CHANNELS[name])
+        return next(other for other, found in SIDE_CHANNELS.items() if found is side)
+
     def constraint(self, constraint: Constraint) -> Constraint:
-        """Return the constraint with every side changed."""
+        """Return the constraint with all its parts changed."""
         changed: Constraint = self.rebuilt(constraint)
         return changed
 

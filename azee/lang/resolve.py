@@ -27,9 +27,10 @@ from azee.lang.procedure import FormalParameter
 from azee.lang.registry import NATIVES
 from azee.lang.resolution import Steps, Visible, run
 from azee.lang.rule import Rule
+from azee.lang.rule_by_name import ambiguous
 from azee.lang.scope import AmbiguousRule, Scope
 from azee.lang.values import Kind, NumberValue, SideValue, SymbolValue, TextValue
-from azee_grammar.diagnostic import Diagnostic, Related
+from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.source import Span
 from azee_grammar.syntax import (
     Application,
@@ -151,10 +152,13 @@ class Resolver:
     def _parameter(self, expr: Parameter, visible: Visible) -> Code:
         if expr.name in visible:
             return Variable(expr.span, expr.name)
+        place = self.scope.places.get(expr.name)
+        if place is not None:
+            return Constant(expr.span, place.value) if place.value else Broken(expr.span)
         constant = CONSTANTS.get(expr.name)
         if constant is not None:
             return Constant(expr.span, constant.value)
-        hint = did_you_mean(expr.name, (*sorted(visible), *CONSTANTS), "^")
+        hint = did_you_mean(expr.name, (*sorted(visible), *self.scope.places, *CONSTANTS), "^")
         if hint is None and expr.name in NATIVES:
             hint = f"`{expr.name}` is an operator: write it without `^`"
         if hint is None and self._defined(expr.name):
@@ -218,20 +222,8 @@ class Resolver:
         span = expr.head.span
         try:
             rule = self.scope.find(name)
-        except AmbiguousRule as ambiguity:
-            libraries = " and ".join(f"`'{r.library}`" for r in ambiguity.rules)
-            self.report(
-                Diagnostic(
-                    "ambiguous-rule",
-                    f"`:{name}` is defined in the libraries {libraries}",
-                    span,
-                    help="define a rule of that name in this file to say which is meant",
-                    related=tuple(
-                        Related(f"defined in `'{r.library}`", r.definition.name_span)
-                        for r in ambiguity.rules
-                    ),
-                )
-            )
+        except AmbiguousRule as several:
+            self.report(ambiguous(f"`:{name}`", several, span))
             return None
         if rule is None:
             message = f"there is no rule `:{name}`"

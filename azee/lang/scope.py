@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from azee.lang.places import NamedPlace
     from azee.lang.rule import Rule
 
 
@@ -35,7 +36,8 @@ class Scope:
 
     `libraries` is filled after its rules are made, since libraries may use each other. `siblings`
     are the rules of the library that the text is a file of, if it is read alone. `dropped` is the
-    default library where the text uses others instead.
+    default library where the text uses others instead. `shipped` finds a library that ships.
+    `places` are the points that the text names.
     """
 
     own: Namespace
@@ -43,6 +45,8 @@ class Scope:
     libraries: list[Namespace] = field(default_factory=list)
     siblings: Namespace | None = None
     dropped: Namespace | None = None
+    shipped: Callable[[str], Namespace | None] = lambda name: None
+    places: dict[str, NamedPlace] = field(default_factory=dict)
 
     def find(self, name: str) -> Rule | None:
         """Return the rule that a name means here.

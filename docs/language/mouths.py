@@ -14,7 +14,7 @@ from azee.cli.main import run
 from azee.export.pictures.typeface import typeface
 from azee_grammar import sounds
 
-PICTURE = Path(__file__).parent / "pictures" / "mouths.png"
+PICTURE = Path(__file__).parents[1] / "pictures" / "mouths.png"
 TABLE = Path(sounds.__file__).parent / "data" / "visemes.csv"
 SIZE, CROP = 560, (140, 310, 420, 500)
 """Pixels of the face that is drawn, and the part of it that is kept."""

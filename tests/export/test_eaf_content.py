@@ -120,6 +120,14 @@ def test_a_hold_is_told_on_the_tiers_of_what_it_holds(tmp_path: Path) -> None:
     assert texts(found, "face") == ["morph 'AU4 1"]  # a hold keeps hands, unless it says more
 
 
+def test_a_hold_of_one_hand_is_told_on_its_tier_only(tmp_path: Path) -> None:
+    both = "key(.5, cstr(place(@I_TIP(s), @CH), place(@PA(w), ^Mssp)))"
+    text = f"sync\n    'A {both}\n    'H hold('A, .2, 'only = 'weak)\n    'start 'A:end\n"
+    found = tiers_of(text, tmp_path)
+    assert texts(found, "weak hand") == ["A", "hold A"]
+    assert texts(found, "strong hand") == ["A"]
+
+
 @pytest.mark.parametrize(
     ("constraint", "part"),
     [

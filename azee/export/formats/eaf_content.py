@@ -145,8 +145,15 @@ def _actions(node: Node, sign: Node | None) -> Iterator[tuple[str, str]]:
     elif isinstance(score, Hold) and node.around is not None:
         held = next((n for n in node.around.inner if n.name == score.block), None)
         for part in sorted(held.moves if held else ()):
-            if CHANNEL.get(part, HANDS_CHANNEL) in score.channels:
+            if not _channels(part).isdisjoint(score.channels):
                 yield part, f"hold {held.gloss if held else score.block}"
+
+
+def _channels(part: str) -> frozenset[str]:
+    """Return the channels of which any, in a hold, keeps a part of the signer."""
+    if part in CHANNEL:
+        return frozenset({CHANNEL[part]})
+    return frozenset({HANDS_CHANNEL, part.removesuffix(" hand")})
 
 
 def _hand_text(node: Node, sign: Node | None) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from unicodedata import normalize
 
 from azee.lang.application import Apply, not_an_operator
 from azee.lang.arguments import Given, given_arguments
@@ -10,8 +11,9 @@ from azee.lang.code import Broken, Code
 from azee.lang.control import Closure, If, Junction, Let, not_a_boolean
 from azee.lang.form import Resolve, exactly
 from azee.lang.native import Group, Native, Occurrence, Operand
+from azee.lang.places import PATTERN as PLACES
 from azee.lang.resolution import Steps, Visible
-from azee.lang.values import Kind, Value
+from azee.lang.values import Kind, TextValue, Value
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.syntax import Application, Expr, Symbol
 from azee_solver.geometry import Side
@@ -113,7 +115,8 @@ def _misplaced(name: str) -> Resolve:
     ) -> Steps[Code]:
         yield from resolver.all(operands, visible)
         message = f"`{name}` stands at the beginning of a line of the file, not in an expression"
-        hint = "local names are given with `let 'name value body`" if name == "def" else None
+        local = name in ("def", "places")
+        hint = "local names are given with `let 'name value body`" if local else None
         return resolver.broken(
             expr.span, Diagnostic("unknown-operator", message, expr.head.span, help=hint)
         )
@@ -129,6 +132,8 @@ def _eq(at: Occurrence, left: Value, right: Value) -> bool:
         raise at.fault("wrong-type", message, "right", label=f"this is {right.kind.value}")
     if isinstance(left.content, Side) and isinstance(right.content, Side):
         _require_same_kind_of_side(at, left.content, right.content)
+    if isinstance(left, TextValue) and isinstance(right, TextValue):
+        return normalize("NFC", left.content) == normalize("NFC", right.content)
     return left.content == right.content
 
 
@@ -215,6 +220,14 @@ OPERATORS = (
         "At the beginning of a line: the rules of a library are in scope.",
         "use 'LIBRARY",
         _misplaced("use"),
+        "",
+    ),
+    _form(
+        "places",
+        "At the beginning of a line: names for points in space, which all expressions of the file "
+        "can use as `^name`. A point may be described by the names before it.",
+        PLACES,
+        _misplaced("places"),
         "",
     ),
     _form(

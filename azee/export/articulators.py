@@ -57,7 +57,7 @@ def _of_bone(bone: str, side: Side | None) -> str:
 
 def _of_preset(morph: Morph) -> str:
     """Return the part that a skeletal morph moves; names without a side operand may have one."""
-    if morph.name.startswith("spine"):
+    if morph.name.startswith(("spine", "shoulder")):
         return "trunk"
     left = morph.name.lower().endswith("_l") or "_l_" in morph.name
     return HANDS[morph.side or (Side.LEFT if left else Side.RIGHT)]

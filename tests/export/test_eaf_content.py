@@ -148,6 +148,7 @@ def test_a_hold_of_one_hand_is_told_on_its_tier_only(tmp_path: Path) -> None:
         ("morph('index_bend_L, 1)", "left hand"),
         ("morph('palm_l_closed, 1)", "left hand"),
         ("morph('spine_extended, 1)", "trunk"),
+        ("morph('shoulder_shrug, s, 1)", "trunk"),
     ],
 )
 def test_a_constraint_moves_a_part_of_the_signer(constraint: str, part: str) -> None:

@@ -54,11 +54,20 @@ def test_charts_are_pictures_and_the_same_every_time() -> None:
     assert Path("a.svg").read_bytes() == Path("b.svg").read_bytes()
     words = {text for e in ElementTree.parse("a.svg").iter() if (text := (e.text or "").strip())}
     assert {"chat", "lake", "info-about", "unknown rule"} <= words
+    assert {"2", "1", "occurrences", "3 rules in 4 applications"} <= words
     with Image.open("c.png") as picture:
         assert picture.width > 600
         colours = {c for _, c in picture.convert("RGB").getcolors(1 << 20) or []}
     assert (181, 72, 58) in colours  # that of unknown rules
     assert Path("d.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_a_chart_has_no_more_bars_than_can_be_read() -> None:
+    Path("texts/a.azee").write_text("".join(f":rule-{i}\n" for i in range(70)), encoding="utf-8")
+    assert run(["corpus", "stats", "texts", "-o", "a.svg", "--quiet"]) == 0
+    words = [(e.text or "").strip() for e in ElementTree.parse("a.svg").iter()]
+    assert sum(word.startswith("rule-") for word in words) == 59  # and chat
+    assert "60 of 71 rules in 71 applications" in words
 
 
 def test_a_chart_of_nothing_can_be_drawn() -> None:

@@ -80,6 +80,15 @@ def test_aligning_moves_the_second_by_the_mean_of_all_starts() -> None:
     assert found[1].only_second == [Annotation("c", 9.75, 10.75)]
 
 
+def test_without_pairs_nothing_is_moved() -> None:
+    found = compared({"x": [Annotation("a", 0, 1)]}, {"x": [Annotation("b", 5, 6)]})
+    assert aligned(found) == (found, 0)
+
+
+def test_tiers_that_only_one_file_has_are_left_out() -> None:
+    assert [t.first_tier for t in compared({"x": [], "y": []}, {"z": [], "y": []})] == ["y"]
+
+
 def _best(first: Sequence[Annotation], second: Sequence[Annotation]) -> tuple[int, float]:
     """Most pairs, and the least distance of their starts, by looking at all ordered pairings."""
     for count in range(min(len(first), len(second)), 0, -1):

@@ -48,12 +48,12 @@ def test_a_rule_that_only_forwards_counts_as_the_other_with_its_arguments() -> N
 
 
 def test_unknown_rules_keep_their_names_and_slots() -> None:
-    text = ":fall-on\n    'loc :lake\n    'what :arbre\n"
-    assert rows(text) == [("fall-on", 0, None), ("lake", 1, "loc"), ("arbre", 1, "what")]
+    text = ":never-defined\n    'loc :nowhere\n    'what :arbre\n"
+    assert rows(text) == [("never-defined", 0, None), ("nowhere", 1, "loc"), ("arbre", 1, "what")]
     found = written(program(text))
     assert [f.rule is None for f in found] == [True, True, False]
     assert found[0].slots == ("loc", "what")
-    assert [f.around and f.around.name for f in found] == [None, "fall-on", "fall-on"]
+    assert [f.around and f.around.name for f in found] == [None, "never-defined", "never-defined"]
 
 
 def test_wrong_arguments_hide_no_application() -> None:

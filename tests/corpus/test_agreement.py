@@ -190,7 +190,7 @@ def test_tiers_that_are_missing_are_told_with_those_that_exist(
     assert "`recording.eaf` has no tier `gloss`; it has `RH`, `comment`" in capsys.readouterr().err
     assert run(["elan", "compare", "score.eaf", "recording.eaf"]) == 2
     assert "no tier has the same name in both" in capsys.readouterr().err
-    assert run(["elan", "compare", "score.eaf", "recording.eaf", "--tier", "face=RH"]) == 3
+    assert run(["elan", "compare", "score.eaf", "recording.eaf", "--tier", "score=RH"]) == 3
 
 
 @pytest.mark.parametrize("content", ["", "<a/>", "<ANNOTATION_DOCUMENT VERSION='3.0'/>", "\0\1"])

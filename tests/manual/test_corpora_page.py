@@ -17,7 +17,6 @@ BLOCKS = list(blocks((ROOT / "docs" / "corpora.md").read_text(encoding="utf-8"))
 COMMANDS = [block for block in BLOCKS if block.kind == "console"]
 EXAMPLES = {
     "cinema-good.azee",
-    "not-but.azee",
     "person-aged-52.azee",
 }
 

@@ -77,6 +77,7 @@ films: $(READY) ## film every example and draw its key postures, into out/films
 pictures: $(READY) readme-picture ## draw all pictures of the documents and of the examples' folders again
 	@$(RUN) examples/build.py --out out/examples --keep-pictures
 	@$(RUN) docs/language/pictures.py
+	@$(RUN) docs/language/mouths.py
 	@$(RUN) docs/film_pictures.py
 	@$(RUN) docs/repl_pictures.py
 

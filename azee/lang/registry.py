@@ -11,6 +11,7 @@ from azee.lang.operators import (
     kinds,
     language,
     lists,
+    mouthing,
     rules,
     score_changes,
     scores,
@@ -30,6 +31,7 @@ NATIVES: Mapping[str, Native] = {
         constraints,
         scores,
         score_changes,
+        mouthing,
         sides,
     )
     for native in module.OPERATORS

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -10,12 +10,24 @@ from typing import TYPE_CHECKING
 from azee.lang.azop import shape_of
 from azee.lang.code import Broken
 from azee.lang.procedure import Procedure
-from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.diagnostic import Diagnostic, Severity
 from azee_grammar.syntax import Application, Definition, Expr, OperatorName
 
 if TYPE_CHECKING:
     from azee.lang.resolve import Resolving
     from azee.lang.scope import Scope
+
+STATUSES: Mapping[str, str] = {
+    "published": "its form is printed",
+    "read-off": "its form was read off a published picture or film",
+    "inferred": "its form follows a description",
+    "placeholder": "its form is ours, and nobody's testimony",
+    "judged": "signers have judged its form",
+}
+"""How much of a rule's form is testimony: the first words of the entry `'status`.
+
+After `judged` the entry says by whom and when.
+"""
 
 
 @dataclass(eq=False)
@@ -48,6 +60,12 @@ class Rule:
                 return text.text
         return None
 
+    @property
+    def status(self) -> str | None:
+        """One of `STATUSES`, None if the rule states none of them."""
+        words = (self.entry("status") or "").split(maxsplit=1)
+        return words[0] if words and words[0] in STATUSES else None
+
     @cached_property
     def parameters(self) -> Sequence[tuple[str, bool]]:
         """Names of the parameters in order, and whether each is mandatory."""
@@ -67,7 +85,8 @@ class Rule:
 
     @cached_property
     def procedure(self) -> Procedure:
-        """The resolved body. Its mistakes are added to `diagnostics`."""
+        """The resolved body. Its mistakes are added to `diagnostics`, as is an unknown status."""
+        self._diagnostics += self._unknown_status()
         body = self.definition.body
         if body is None:
             return Procedure(self.name, (), Broken(self.definition.span), {})
@@ -77,6 +96,17 @@ class Rule:
             parameters, code = resolver.procedure(body)
             return Procedure(self.name, parameters, code, {})
         return Procedure(self.name, (), resolver.resolve(body), {})
+
+    def _unknown_status(self) -> Iterator[Diagnostic]:
+        for symbol, text in self.definition.entries:
+            if symbol.name == "status" and self.status is None:
+                yield Diagnostic(
+                    "unknown-status",
+                    f"`{text.text}` is no status of a rule",
+                    text.span,
+                    help=f"the first word is one of {', '.join(STATUSES)}",
+                    severity=Severity.WARNING,
+                )
 
     @property
     def diagnostics(self) -> Sequence[Diagnostic]:

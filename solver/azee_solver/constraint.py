@@ -47,23 +47,26 @@ class Place(_Constraint):
     """`place SITE POINT`: the site lies at the point.
 
     `distance_m` lies along the outward normal where the point is a site, in any direction from a
-    free point. `contact` lets the surfaces touch there and exempts them from collision.
+    free point. `contact` lets the surfaces touch there and exempts them from collision. It is met
+    up to `within_m` away, and drawn to the middle.
     """
 
     site: Site
     point: Point
     distance_m: float = 0.0
     contact: bool = False
+    within_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Orient(_Constraint):
-    """`orient 'dir|'nrm BONE 'along|'across VECTOR`."""
+    """`orient 'dir|'nrm BONE 'along|'across VECTOR`: met up to `within_rad` off."""
 
     axis: BoneAxis
     bone: Bone
     relation: Relation
     vector: Vector
+    within_rad: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

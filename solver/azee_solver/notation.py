@@ -103,13 +103,15 @@ def problem_text(constraints: Iterable[Constraint]) -> str:
 
 def _halves(constraint: Constraint) -> tuple[str, str]:
     match constraint:
-        case Place(site, point, distance, contact):
+        case Place(site, point, distance, contact, within):
             options = f" 'dist {number_text(distance)}" if distance else ""
             options += " 'contact" if contact else ""
+            options += f" 'within {number_text(within)}" if within else ""
             return f"place {part_text(site)}", f"{point_text(point)}{options}"
-        case Orient(axis, bone, relation, vector):
+        case Orient(axis, bone, relation, vector, within):
             subject = f"orient '{axis.value} {part_text(bone)}"
-            return subject, f"'{relation.value} {vector_text(vector)}"
+            options = f" 'within {_degrees(within)}" if within else ""
+            return subject, f"'{relation.value} {vector_text(vector)}{options}"
         case Look(vector):
             return "look", vector_text(vector)
         case LookAt(point):

@@ -155,6 +155,11 @@ def test_bones_and_sites_take_side_and_phalanx(expression: str, expected: object
             "orient 'nrm !palm(s) 'across ^up",
             Orient(BoneAxis.NRM, PALM, Relation.ACROSS, UP),
         ),
+        ("place @I_TIP(s) ^Mssp 'within .03", Place(TIP, MSSP, within_m=0.03)),
+        (
+            "orient 'nrm !palm(s) 'along ^up 'within 45",
+            Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP, math.pi / 4),
+        ),
         ("look ^fwd", Look(FWD)),
         ("lookat @I_TIP(s)", LookAt(SitePoint(TIP))),
         ("trill !palm(s) ^up", Trill(PALM, UP, 5.0, math.radians(12))),

@@ -43,12 +43,23 @@ TRILL_DEG = 12.0
 Constraints = tuple[Constraint, ...]
 
 
-def _place(at: Occurrence, site: Site, point: Point, *, dist: float, contact: bool) -> Constraints:
-    return (Place(site, point, dist, contact, origin=at.origin),)
+def _place(
+    at: Occurrence, site: Site, point: Point, *, dist: float, contact: bool, within: float
+) -> Constraints:
+    if within < 0:
+        raise at.fault("number-range", "`'within` is a length: 0 or more metres", "bound")
+    return (Place(site, point, dist, contact, within, origin=at.origin),)
 
 
-def _orient(at: Occurrence, axis: str, bone: Bone, relation: str, vector: Vector) -> Constraints:
-    return (Orient(BoneAxis(axis), bone, Relation(relation), vector, origin=at.origin),)
+def _orient(
+    at: Occurrence, axis: str, bone: Bone, relation: str, vector: Vector, *, within: float
+) -> Constraints:
+    most = 90 if Relation(relation) is Relation.ACROSS else 180
+    if not 0 <= within < most:
+        message = f"`'within` is an angle between 0 and {most} degrees"
+        raise at.fault("number-range", message, "bound", help="all directions are less than that")
+    bound = math.radians(within)
+    return (Orient(BoneAxis(axis), bone, Relation(relation), vector, bound, origin=at.origin),)
 
 
 def _look(at: Occurrence, vector: Vector) -> Constraints:
@@ -186,6 +197,10 @@ def _native(
     )
 
 
+def _within(meaning: str) -> Option:
+    return Option("within", meaning, Operand("bound", "the greatest miss", (Kind.NUMBER,)), 0.0)
+
+
 _SITE = Operand("site", "such as `@I_TIP(s)`", (Kind.SITE,))
 _POINT = Operand("point", "a point", (Kind.POINT,))
 _BONE = Operand("bone", "such as `!palm(s)`", (Kind.BONE,))
@@ -205,6 +220,7 @@ OPERATORS = (
                 "dist", "metres from the point", Operand("distance", "metres", (Kind.NUMBER,)), 0.0
             ),
             Option("contact", "the surfaces may touch here"),
+            _within("metres from where the site should be, anywhere inside which it is met"),
         ),
     ),
     _native(
@@ -218,7 +234,8 @@ OPERATORS = (
             _VECTOR,
         ),
         _orient,
-        "orient 'nrm !palm(s) 'along ^down",
+        "orient 'nrm !palm(s) 'along ^down 'within 25",
+        options=(_within("degrees off, anywhere inside which it is met"),),
     ),
     _native(
         "look",

@@ -162,7 +162,7 @@ class FrameProblems:
         ranked = (*now.tasks, *(path.motion.task for path in now.paths))
         factors = {i: self.factors.get(task.rank, 1.0) for i, task in enumerate(ranked)}
         tape = self._tape(body.frames(idle))
-        residuals = lower(tape, tasks, self.options.tolerance, factors)
+        residuals = lower(tape, tasks, self.options.tolerance, factors, drawn=False)
         free = self._free(now, presets)
         nothing, comfort = np.zeros(len(idle)), np.full(len(idle), COMFORT * self.options.comfort)
         program = Program(
@@ -215,7 +215,8 @@ class FrameProblems:
             tape = self._tape(Frames(frames.positions[k], frames.rotations[k]))
             now = {i: problem.now.tasks[i].ik_task(times[t]) for i in moving}
             tasks = {**problem.tasks, **now}
-            numbers.append(used_entries(tape, lower(tape, tasks, self.options.tolerance, {}).rows))
+            asked = lower(tape, tasks, self.options.tolerance, {}, drawn=False).rows
+            numbers.append(used_entries(tape, asked))
         # What differs in one frame is filled in for all of them: they share one tape.
         differs = np.any(np.stack(numbers) != problem.program.tape_numbers, axis=(0, 2))
         differs[on_paths] = False

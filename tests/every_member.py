@@ -125,6 +125,7 @@ CONSTRAINTS: tuple[Constraint, ...] = (
     Morph("index_bend", S, 0.5),
     Rotate(HEAD, UP, math.radians(10)),
     Trill(PALM, UP, 5.0, math.radians(12)),
+    Trill(PALM, UP, 5.0, math.radians(30), math.radians(15), math.radians(90), 2.0),
     Transpath(TIP, Arc(Vec(0.0, 0.125, 0.0))),
 )
 

@@ -6,6 +6,7 @@ text can be checked without loading a solver.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import TypeAlias
@@ -98,12 +99,31 @@ class Morph(_Constraint):
 
 @dataclass(frozen=True, slots=True)
 class Trill(_Constraint):
-    """`trill BONE AXIS`: a small rapid oscillation of a bone about an axis, while it lasts."""
+    """`trill BONE AXIS`: a small rapid oscillation of a bone about an axis, while it lasts.
+
+    The angle goes between `amplitude_rad` about the axis and `back_rad` against it, the same where
+    it is None. It starts in the middle, or at `phase_rad` of a cycle. `cycles`: how often while it
+    lasts, instead of a frequency.
+    """
 
     bone: Bone
     axis: Vector
     frequency_hz: float
     amplitude_rad: float
+    back_rad: float | None = None
+    phase_rad: float = 0.0
+    cycles: float | None = None
+
+    @property
+    def other_rad(self) -> float:
+        """How far the bone turns against the axis."""
+        return self.amplitude_rad if self.back_rad is None else self.back_rad
+
+    def hz(self, duration_s: float) -> float:
+        """Oscillations a second of a trill that lasts so long."""
+        if self.cycles is None:
+            return self.frequency_hz
+        return self.cycles / duration_s if duration_s > 0 else math.inf
 
 
 @dataclass(frozen=True, slots=True)

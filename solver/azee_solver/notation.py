@@ -118,8 +118,13 @@ def _halves(constraint: Constraint) -> tuple[str, str]:
             return "lookat", point_text(point)
         case Morph(name, side, weight):
             return f"morph '{name}" + (f" {side.value}" if side else ""), number_text(weight)
-        case Trill(bone, axis, frequency_hz, amplitude_rad):
-            options = f"'freq {number_text(frequency_hz)} 'amp {_degrees(amplitude_rad)}"
+        case Trill(bone, axis, frequency_hz, amplitude_rad, back_rad, phase_rad, cycles):
+            pace = "freq", frequency_hz
+            if cycles is not None:
+                pace = "cycles", cycles
+            options = f"'{pace[0]} {number_text(pace[1])} 'amp {_degrees(amplitude_rad)}"
+            options += "" if back_rad is None else f" 'back {_degrees(back_rad)}"
+            options += f" 'phase {_degrees(phase_rad)}" if phase_rad else ""
             return f"trill {part_text(bone)}", f"{vector_text(axis)} {options}"
         case Rotate(bone, axis, angle_rad):
             return f"rotate {part_text(bone)}", f"{vector_text(axis)} {_degrees(angle_rad)}"

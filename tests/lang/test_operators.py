@@ -165,6 +165,10 @@ def test_bones_and_sites_take_side_and_phalanx(expression: str, expected: object
         ("trill !palm(s) ^up", Trill(PALM, UP, 5.0, math.radians(12))),
         ("trill !palm(s) ^up s", Trill(PALM, UP, 5.0, math.radians(12))),
         (
+            "trill !palm(s) ^up 'amp 30 'back 0 'phase 90 'cycles 2",
+            Trill(PALM, UP, 5.0, math.pi / 6, 0.0, math.pi / 2, 2.0),
+        ),
+        (
             "trill !palm(s) ^up 'amp 90 'freq 6",
             Trill(PALM, UP, 6.0, math.pi / 2),
         ),

@@ -11,7 +11,7 @@ from test_comfort import lean_deg, run
 from tree_sign import DIR, NRM, UP, S, along
 
 from azee_rig.rig import Rig
-from azee_solver.constraint import Constraint, Orient, Place, Relation
+from azee_solver.constraint import Orient, Place, Relation
 from azee_solver.evaluate import evaluator
 from azee_solver.geometry import Bone, FreePoint, Side, Site, Vec
 from azee_solver.outcome import Outcome
@@ -25,9 +25,9 @@ STEEP = along(NRM, PALM, UP)
 TOLERANCE = Tolerance()
 
 
-def off_deg(rig: Rig, report: SolveReport, constraint: Constraint) -> float:
+def off_deg(rig: Rig, report: SolveReport, constraint: Orient) -> float:
     """Angle from the middle of the bound."""
-    exact = replace(constraint, within_rad=0.0)  # type: ignore[call-arg]
+    exact = replace(constraint, within_rad=0.0)
     q = report.coordinates
     residual, _ = evaluator(rig, Side.RIGHT).residual(exact, rig.chain.frames(q), q)
     return math.degrees(float(residual))
@@ -55,9 +55,9 @@ def test_it_is_drawn_to_the_middle(signer: Rig, bound_deg: float) -> None:
 
 def test_what_is_asked_exactly_costs_more_than_what_is_bounded(signer: Rig) -> None:
     """A flat hand before the breastbone, fingers forward: exact, neither of its axes is met."""
-    exact = Place(Site("PA", S), FreePoint(0, 0, 0.2)), EXACT, along(NRM, PALM, Vec(1, 0, 0))
-    bounded = exact[0], *(replace(c, within_rad=math.radians(25)) for c in exact[1:])
-    strict, free = (run(signer, *some) for some in (exact, bounded))
+    place, sideways = Place(Site("PA", S), FreePoint(0, 0, 0.2)), along(NRM, PALM, Vec(1, 0, 0))
+    bounded = (replace(c, within_rad=math.radians(25)) for c in (EXACT, sideways))
+    strict, free = run(signer, place, EXACT, sideways), run(signer, place, *bounded)
     assert [c.outcome for c in strict.constraints[1:]] == [Outcome.MISSED, Outcome.MISSED]
     assert [c.outcome for c in free.constraints] == [Outcome.MET] * 3
     assert lean_deg(signer, free) < 0.1 < lean_deg(signer, strict)

@@ -79,14 +79,40 @@ def _transpath(at: Occurrence, site: Site, path: Path) -> Constraints:
 
 
 def _trill(
-    at: Occurrence, bone: Bone, axis: Vector, side: Side | None = None, *, freq: float, amp: float
+    at: Occurrence,
+    bone: Bone,
+    axis: Vector,
+    side: Side | None = None,
+    *,
+    freq: float | None,
+    cycles: float | None,
+    amp: float,
+    back: float | None,
+    phase: float,
 ) -> Constraints:
     if side is not None and bone.side is not side:
         message = "the side of a trill is that of its bone"
         raise at.fault("bad-side", message, "side", help="leave it out: the bone has one")
-    if freq <= 0:
+    if freq is not None and freq <= 0:
         raise at.fault("number-range", "the frequency of a trill is greater than 0", "frequency")
-    return (Trill(bone, axis, freq, math.radians(amp), origin=at.origin),)
+    if cycles is not None and cycles <= 0:
+        raise at.fault("number-range", "a trill has more than 0 cycles", "cycles")
+    if cycles is not None and freq is not None:
+        message = "a trill has either `'freq` or `'cycles`"
+        help_ = "`'cycles` counts them while the block lasts: leave one out"
+        raise at.fault("number-range", message, "cycles", help=help_)
+    return (
+        Trill(
+            bone,
+            axis,
+            TRILL_HZ if freq is None else freq,
+            math.radians(amp),
+            None if back is None else math.radians(back),
+            math.radians(phase % 360),
+            cycles,
+            origin=at.origin,
+        ),
+    )
 
 
 def _morph(at: Occurrence, values: tuple[Value, ...]) -> Constraints:
@@ -284,13 +310,28 @@ OPERATORS = (
                 "freq",
                 f"oscillations per second, {TRILL_HZ:g} unless said",
                 Operand("frequency", "Hz", (Kind.NUMBER,)),
-                TRILL_HZ,
+            ),
+            Option(
+                "cycles",
+                "oscillations while the block lasts, instead of a frequency",
+                Operand("cycles", "how many", (Kind.NUMBER,)),
             ),
             Option(
                 "amp",
                 f"degrees to either side, {TRILL_DEG:g} unless said",
                 Operand("amplitude", "degrees", (Kind.NUMBER,)),
                 TRILL_DEG,
+            ),
+            Option(
+                "back",
+                "degrees against the axis, where it goes farther to one side; 0 for one side alone",
+                Operand("amplitude", "degrees", (Kind.NUMBER,)),
+            ),
+            Option(
+                "phase",
+                "degrees of a cycle at its start: 90 at one end, 180 on the way back",
+                Operand("phase", "degrees", (Kind.NUMBER,)),
+                0.0,
             ),
         ),
     ),

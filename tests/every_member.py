@@ -123,6 +123,7 @@ CONSTRAINTS: tuple[Constraint, ...] = (
     Look(Vec(0.25, 0.0, 1.0)),
     LookAt(VTranslate(CHIN, Vec(0.25, 0.0, 1.0))),
     Morph("index_bend", S, 0.5),
+    Morph("index_bend", S, 0.5, math.radians(30)),
     Rotate(HEAD, UP, math.radians(10)),
     Trill(PALM, UP, 5.0, math.radians(12)),
     Trill(PALM, UP, 5.0, math.radians(30), math.radians(15), math.radians(90), 2.0),

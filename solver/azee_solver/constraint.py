@@ -86,11 +86,15 @@ class LookAt(_Constraint):
 
 @dataclass(frozen=True, slots=True)
 class Morph(_Constraint):
-    """`morph 'name [side] w`: facial shapes and skeletal presets; negative weights are legal."""
+    """`morph 'name [side] w`: facial shapes and skeletal presets; negative weights are legal.
+
+    A skeletal one yields to contacts by up to `within_rad` in each joint.
+    """
 
     name: str
     side: Side | None
     weight: float
+    within_rad: float = 0.0
 
     def key(self, dominant: Side) -> str:
         """Name in the morph table, such as `index_bend_R`."""

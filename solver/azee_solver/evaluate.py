@@ -295,7 +295,7 @@ class Evaluator:
                 whole = self.binding.presets([*among] or [constraint])
                 own = self.binding.preset(constraint)
                 off = [np.abs(q[..., v] - whole[v]) for v in own]
-                return np.max(np.stack(off), axis=0), "rad"
+                return beyond(np.max(np.stack(off), axis=0), constraint.within_rad), "rad"
             case Morph() | Trill() | Transpath():
                 raise ValueError(f"no posture meets a {type(constraint).__name__}")
 

@@ -116,8 +116,10 @@ def _halves(constraint: Constraint) -> tuple[str, str]:
             return "look", vector_text(vector)
         case LookAt(point):
             return "lookat", point_text(point)
-        case Morph(name, side, weight):
-            return f"morph '{name}" + (f" {side.value}" if side else ""), number_text(weight)
+        case Morph(name, side, weight, within):
+            soft = f" 'soft {_degrees(within)}" if within else ""
+            subject = f"morph '{name}" + (f" {side.value}" if side else "")
+            return subject, f"{number_text(weight)}{soft}"
         case Trill(bone, axis, frequency_hz, amplitude_rad, back_rad, phase_rad, cycles):
             pace = "freq", frequency_hz
             if cycles is not None:

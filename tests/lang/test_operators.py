@@ -160,6 +160,11 @@ def test_bones_and_sites_take_side_and_phalanx(expression: str, expected: object
             "orient 'nrm !palm(s) 'along ^up 'within 45",
             Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP, math.pi / 4),
         ),
+        ("morph 'index_bend s 1 'soft", Morph("index_bend", Side.STRONG, 1.0, math.radians(40))),
+        (
+            "morph 'index_bend s 1 'soft 90",
+            Morph("index_bend", Side.STRONG, 1.0, math.pi / 2),
+        ),
         ("look ^fwd", Look(FWD)),
         ("lookat @I_TIP(s)", LookAt(SitePoint(TIP))),
         ("trill !palm(s) ^up", Trill(PALM, UP, 5.0, math.radians(12))),

@@ -40,6 +40,10 @@ TRILL_HZ = 5.0
 TRILL_DEG = 12.0
 """What a trill does unless its text says otherwise; ours, nothing is published."""
 
+SOFT = "soft"
+SOFT_DEG = 40.0
+"""How far a joint of a soft morph yields to what is in its way, unless its text says otherwise."""
+
 Constraints = tuple[Constraint, ...]
 
 
@@ -136,6 +140,10 @@ def _morph(at: Occurrence, values: tuple[Value, ...]) -> Constraints:
             message = f"the morph `'{name.content}` has no weight"
             raise at.fault("missing-value", message, "item", start)
         i += 1
+        bound, i = _yielding(at, values, i)
+        if name.content == SOFT:
+            message = "`'soft` stands behind the weight of a morph"
+            raise at.fault("unknown-morph", message, "item", start)
         if (problem := _unknown_morph(name.content, at.span_of("item", start))) is not None:
             raise problem
         entry = vocabulary.morph(name.content)
@@ -151,12 +159,34 @@ def _morph(at: Occurrence, values: tuple[Value, ...]) -> Constraints:
                 start,
                 help=f"write `'{name.content} s {weight.content:g}`: s, w, L or R",
             )
-        morphs.append(Morph(name.content, side, weight.content, origin=at.origin))
+        if bound and "skeletal" not in _kind(name.content):
+            message = f"`'{name.content}` moves the face, which yields to nothing"
+            raise at.fault("unknown-keyword", message, "item", start, help="leave out `'soft`")
+        morphs.append(Morph(name.content, side, weight.content, bound, origin=at.origin))
     return tuple(morphs)
 
 
+def _yielding(at: Occurrence, values: tuple[Value, ...], i: int) -> tuple[float, int]:
+    """Read `'soft [DEGREES]` behind a weight: how far a morph yields, radians, and what is next."""
+    if i >= len(values) or not (isinstance(v := values[i], SymbolValue) and v.content == SOFT):
+        return 0.0, i
+    i += 1
+    if i >= len(values) or not isinstance(bound := values[i], NumberValue):
+        return math.radians(SOFT_DEG), i
+    if not 0 < bound.content <= 180:
+        message = "a morph yields by more than 0 and at most 180 degrees"
+        raise at.fault("number-range", message, "item", i)
+    return math.radians(bound.content), i + 1
+
+
+def _kind(morph: str) -> str:
+    """Return the kind of a morph that AZee has, written with or without its side."""
+    entry = vocabulary.MORPHS.get(morph) or vocabulary.MORPHS[f"{morph}_R"]
+    return entry.kind
+
+
 def _unknown_morph(name: str, span: Span) -> Fault | None:
-    if vocabulary.morph(name) is not None:
+    if name == SOFT or vocabulary.morph(name) is not None:
         return None
     message = f"AZee has no morph `'{name}`"
     instead = vocabulary.WITHOUT_MORPH.get(name)
@@ -280,11 +310,12 @@ OPERATORS = (
     _native(
         "morph",
         "Shapes of the face and presets of the hands: a name, a side where it takes one, a weight, "
-        "and again. Negative weights are legal.",
+        "and again. Negative weights are legal. With `'soft` behind its weight, joints of a hand "
+        f"yield to contacts, each by {SOFT_DEG:g} degrees or as many as follow.",
         (
             Operand(
                 "item",
-                "`'NAME [SIDE] WEIGHT`",
+                "`'NAME [SIDE] WEIGHT ['soft [DEGREES]]`",
                 (Kind.SYMBOL, Kind.SIDE, Kind.NUMBER),
                 rest=True,
                 least=2,

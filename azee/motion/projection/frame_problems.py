@@ -154,7 +154,10 @@ class FrameProblems:
         evaluator = self.monitor.evaluator
         rig = evaluator.rig
         idle = rig.coordinates.idle
-        presets = evaluator.binding.presets([t.constraint for t in now.tasks])
+        asked = [t.constraint for t in now.tasks]
+        presets = evaluator.binding.presets(asked)
+        for v in evaluator.binding.yielding(asked):
+            del presets[v]  # key postures have decided how far it yields
         body = Body(rig, evaluator, idle, presets, self.options, now.touches)
         count = len(now.tasks)
         tasks = {i: t.ik_task(time) for i, t in enumerate(now.tasks) if _has_rows(t)}

@@ -28,6 +28,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -48,6 +49,7 @@ from azee_solver.geometry import (
     SigningSpace,
     Site,
     SitePoint,
+    Slide,
     Straight,
     Through,
     Towards,
@@ -57,7 +59,9 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 S, W = Side.STRONG, Side.WEAK
@@ -111,6 +115,11 @@ PATHS: tuple[Path, ...] = (
     Straight(),
     Arc(Scale(Nrm(OTHER_PALM), 0.125)),
     Circle(Vec(0.0, 0.0, 1.0), 0.0625, 1.25),
+    Circle(Vec(0.0, 0.0, 1.0), 0.0625, 1.25, math.radians(60), 0.5, 0.125),
+    Around(VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)), Vec(0.0, 0.0, 1.0), 1.0),
+    Wave(Scale(Nrm(OTHER_PALM), 0.125), 1.5),
+    Zigzag(Scale(Nrm(OTHER_PALM), 0.125), 3),
+    Slide(Bone("f_arm", W), Straight()),
     Through((VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)),)),
 )
 CONSTRAINTS: tuple[Constraint, ...] = (

@@ -29,6 +29,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Circle,
     Cross,
@@ -47,6 +48,7 @@ from azee_solver.geometry import (
     Side,
     SigningSpace,
     SitePoint,
+    Slide,
     Straight,
     Through,
     Towards,
@@ -56,7 +58,9 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 
@@ -168,7 +172,9 @@ class Mirror(Change):
                 return Cross(self.node(right), self.node(left))
             case Rotated(angle_rad=angle):
                 return replace(self.rebuilt(node), angle_rad=-angle)
-            case Circle(turns=turns):
+            case Circle(turns=turns, phase_rad=phase):
+                return replace(self.rebuilt(node), turns=-turns, phase_rad=-phase if phase else 0.0)
+            case Around(turns=turns):
                 return replace(self.rebuilt(node), turns=-turns)
             case NamedPoint(place):
                 return NamedPoint(self.place(place))
@@ -176,7 +182,7 @@ class Mirror(Change):
                 return self.rebuilt(node)
             case SitePoint() | JointPoint() | VTranslate() | Between() | Moving():
                 return self.rebuilt(node)
-            case Straight() | Arc() | Through():
+            case Straight() | Arc() | Wave() | Zigzag() | Through() | Slide():
                 return self.rebuilt(node)
 
 

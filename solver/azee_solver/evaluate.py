@@ -8,7 +8,7 @@ of the body that plays. A direction that its operands do not define is NaN, neve
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -33,6 +33,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -53,6 +54,7 @@ from azee_solver.geometry import (
     SigningSpace,
     Site,
     SitePoint,
+    Slide,
     Straight,
     Through,
     Towards,
@@ -62,9 +64,12 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Wave,
     WorldPoint,
+    Zigzag,
     depends_on,
 )
+from azee_solver.sliding import skin_of
 
 if TYPE_CHECKING:
     from azee_rig.rig import BoneNodes, Rig
@@ -209,14 +214,33 @@ class Evaluator:
             case Straight():
                 return paths.straight(a, b, times)
             case Arc(bulge):
-                side = self.scale * self.vector(bulge, frames)
-                return paths.arc(a, b, spread(side), times)
-            case Circle(axis, radius, turns):
+                return paths.arc(a, b, self._aside(bulge, frames, spread), times)
+            case Circle(axis, radius, turns, phase, ratio, last):
                 spin = spread(self.vector(axis, frames))
-                return paths.circle(a, b, spin, self.scale * radius, turns, times)
+                return paths.circle(
+                    a, b, spin, self.scale * radius, turns, times, phase=phase, ratio=ratio,
+                    end_radius=None if last is None else self.scale * last,
+                )  # fmt: skip
+            case Around(centre, axis, turns):
+                middle, spin = (
+                    spread(v) for v in (self.point(centre, frames), self.vector(axis, frames))
+                )
+                return paths.around(a, b, middle, spin, turns, times)
+            case Wave(side, waves):
+                return paths.wave(a, b, self._aside(side, frames, spread), waves, times)
+            case Zigzag(side, corners):
+                return paths.zigzag(a, b, self._aside(side, frames, spread), corners, times)
+            case Slide(bone, course):
+                skin = skin_of(self.rig, self.binding.bone(bone))
+                free = self.path(course, start, end, t, frames)
+                return skin.laid_on(free, a, b, times, frames)
             case Through(points):
                 inner = [spread(self.point(p, frames)) for p in points]
                 return paths.through(np.stack(np.broadcast_arrays(a, *inner, b), axis=-2), times)
+
+    def _aside(self, vector: Vector, frames: Frames, spread: Callable[[Array], Array]) -> Array:
+        """Return a vector of a path in metres of this body."""
+        return spread(self.scale * self.vector(vector, frames))
 
     # Constraints ------------------------------------------------------------------------------
 

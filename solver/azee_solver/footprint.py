@@ -19,6 +19,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -37,6 +38,7 @@ from azee_solver.geometry import (
     Scale,
     Site,
     SitePoint,
+    Slide,
     Straight,
     Through,
     Towards,
@@ -46,7 +48,9 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 
@@ -182,9 +186,15 @@ class _Reader:
 
     def path(self, path: Path) -> None:
         match path:
-            case Arc(vector) | Circle(vector):
+            case Arc(vector) | Circle(vector) | Wave(vector) | Zigzag(vector):
                 self.vector(vector)
                 self.world = True  # a circle's starting side is the world's
+            case Around(centre, axis):
+                self.point(centre)
+                self.vector(axis)
+            case Slide(bone, inner):
+                self.node(self.bone(bone))
+                self.path(inner)
             case Through(points):
                 for point in points:
                     self.point(point)

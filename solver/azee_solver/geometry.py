@@ -254,12 +254,14 @@ class Moving:
 class WorldPoint:
     """A place in the world of the body that plays, metres: what motion code has measured.
 
-    No AZee text makes one.
+    No AZee text makes one. `touching`: sites of the part of the body whose skin is there and may be
+    touched.
     """
 
     x: float
     y: float
     z: float
+    touching: tuple[Site, ...] = ()
 
 
 Point: TypeAlias = (
@@ -283,11 +285,51 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class Circle:
-    """`circle AXIS RADIUS turns`: radius in metres of the reference signer."""
+    """`circle AXIS RADIUS turns` and `spiral`: radii in metres of the reference signer.
+
+    It starts `phase_rad` beyond its highest point, right-handed about the axis. Its height is
+    `ratio` times its width. A spiral ends with another radius.
+    """
 
     axis: Vector
     radius_m: float
     turns: float
+    phase_rad: float = 0.0
+    ratio: float = 1.0
+    end_radius_m: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Around:
+    """`around POINT AXIS turns`: about a centre, as far from it as the ends are."""
+
+    centre: Point
+    axis: Vector
+    turns: float
+
+
+@dataclass(frozen=True, slots=True)
+class Wave:
+    """`wave V n`: to and fro along V, n times on the way."""
+
+    side: Vector
+    waves: float
+
+
+@dataclass(frozen=True, slots=True)
+class Zigzag:
+    """`zigzag V n`: n corners, to the side of V and to the other in turns."""
+
+    side: Vector
+    corners: int
+
+
+@dataclass(frozen=True, slots=True)
+class Slide:
+    """`slide BONE PATH`: a path laid on the skin of a part of the body."""
+
+    bone: Bone
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -297,7 +339,7 @@ class Through:
     points: tuple[Point, ...]
 
 
-Path: TypeAlias = Straight | Arc | Circle | Through
+Path: TypeAlias = Straight | Arc | Circle | Around | Wave | Zigzag | Through | Slide
 
 
 # Dependencies -------------------------------------------------------------------------------

@@ -22,6 +22,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -40,6 +41,7 @@ from azee_solver.geometry import (
     Scale,
     Site,
     SitePoint,
+    Slide,
     Straight,
     Through,
     Towards,
@@ -49,7 +51,9 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 DIRECTIONS: dict[tuple[float, float, float], str] = {
@@ -206,8 +210,21 @@ def path_text(path: Path) -> str:
             return "straight"
         case Arc(bulge):
             return _call("arc", vector_text(bulge))
-        case Circle(axis, radius_m, turns):
-            return _call("circle", vector_text(axis), number_text(radius_m), number_text(turns))
+        case Circle(axis, radius_m, turns, phase_rad, ratio, end_radius_m):
+            ends = [radius_m] if end_radius_m is None else [radius_m, end_radius_m]
+            options = [f"'phase = {_degrees(phase_rad)}"] if phase_rad else []
+            options += [f"'ratio = {number_text(ratio)}"] if ratio != 1.0 else []
+            name = "circle" if end_radius_m is None else "spiral"
+            numbers = map(number_text, (*ends, turns))
+            return _call(name, vector_text(axis), *numbers, *options)
+        case Around(centre, axis, turns):
+            return _call("around", point_text(centre), vector_text(axis), number_text(turns))
+        case Wave(side, waves):
+            return _call("wave", vector_text(side), number_text(waves))
+        case Zigzag(side, corners):
+            return _call("zigzag", vector_text(side), number_text(corners))
+        case Slide(bone, inner):
+            return _call("slide", part_text(bone), path_text(inner))
         case Through(points):
             return _call("through", *map(point_text, points))
 

@@ -31,6 +31,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -49,6 +50,7 @@ from azee_solver.geometry import (
     SigningSpace,
     Site,
     SitePoint,
+    Slide,
     Straight,
     Through,
     Towards,
@@ -57,6 +59,8 @@ from azee_solver.geometry import (
     Vec,
     VSum,
     VTranslate,
+    Wave,
+    Zigzag,
 )
 
 UP, FWD = Vec(0, 1, 0), Vec(0, 0, 1)
@@ -116,7 +120,17 @@ def test_every_operator_is_in_an_expression_of_these_tests() -> None:
         ("arc-vect ^up", Arc(UP)),
         ("circle ^fwd .05 2", Circle(FWD, 0.05, 2)),
         ("circle ^fwd .05", Circle(FWD, 0.05, 1)),
+        ("circle ^fwd .05 'phase 90 'ratio .5", Circle(FWD, 0.05, 1, math.pi / 2, 0.5)),
+        ("spiral ^fwd .02 .08 3", Circle(FWD, 0.02, 3, end_radius_m=0.08)),
+        ("around ^Mssp ^fwd", Around(MSSP, FWD, 1)),
+        ("around ^Mssp ^fwd -.5", Around(MSSP, FWD, -0.5)),
+        ("wave ^up 2", Wave(UP, 2)),
+        ("zigzag ^up", Zigzag(UP, 2)),
+        ("zigzag ^up 5", Zigzag(UP, 5)),
+        ("slide !palm(s)", Slide(PALM, Straight())),
+        ("slide !palm(s) (arc ^up)", Slide(PALM, Arc(UP))),
         ("through ^Rssp @I_TIP(s)", Through((RSSP, SitePoint(TIP)))),
+        ("through (list ^Rssp @I_TIP(s)) ^Mssp", Through((RSSP, SitePoint(TIP), MSSP))),
     ],
 )
 def test_geometry_stays_symbolic(expression: str, expected: object) -> None:

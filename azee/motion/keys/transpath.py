@@ -28,7 +28,16 @@ from azee.score.interval import Interval
 from azee_rig.chain import Frames
 from azee_solver.constraint import LookAt, Place, Transpath
 from azee_solver.evaluate import Evaluator
-from azee_solver.geometry import Bone, Point, Side, WorldPoint, depends_on
+from azee_solver.geometry import (
+    Bone,
+    Point,
+    Side,
+    Site,
+    SitePoint,
+    Slide,
+    WorldPoint,
+    depends_on,
+)
 from azee_solver.task import Task
 
 Array = NDArray[np.float64]
@@ -66,6 +75,15 @@ class PathMotion:
         """The transpath."""
         assert isinstance(self.task.constraint, Transpath)
         return self.task.constraint
+
+    @property
+    def touching(self) -> tuple[Site, ...]:
+        """The sites at the ends of a path on the skin: the part that they are on is touched."""
+        if not isinstance(self.constraint.path, Slide):
+            return ()
+        ends = [task.constraint for task in (self.before, self.after) if task is not None]
+        points = [place.point for place in ends if isinstance(place, Place)]
+        return tuple(dict.fromkeys(p.site for p in points if isinstance(p, SitePoint)))
 
     @property
     def between(self) -> Interval:
@@ -143,9 +161,10 @@ class AnchoredPath:
     def ik_task(self, point: Array) -> Task:
         """Return the placement of the site on a point of its path."""
         task = self.motion.task
+        x, y, z = point.tolist()
         place = Place(
             self.motion.constraint.site,
-            WorldPoint(*(float(x) for x in point)),
+            WorldPoint(x, y, z, self.motion.touching),
             origin=task.constraint.origin,
         )
         return Task(place, task.path, task.interval.start, task.rank)

@@ -51,6 +51,7 @@ from azee_solver.geometry import (
     SitePoint,
     Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -59,6 +60,7 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
     Wave,
     WorldPoint,
     Zigzag,
@@ -84,6 +86,7 @@ VECTORS: tuple[Vector, ...] = (
     Cross(Nrm(HEAD), SLANTED),
     Towards(CHIN, OTHER_TIP),
     Rotated(Nrm(OTHER_PALM), SLANTED, math.radians(30)),
+    Swing(SLANTED, Nrm(OTHER_PALM)),
 )
 MOVING = Moving(Straight(), RIGHT_SPACE, VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)))
 POINTS: tuple[Point, ...] = (
@@ -95,6 +98,7 @@ POINTS: tuple[Point, ...] = (
     Between(OTHER_TIP, CHIN, 0.25),
     MOVING,
     WorldPoint(-0.2, 1.2, 0.3),
+    Was("A", OTHER_TIP, (-0.2, 1.2, 0.3)),
 )
 
 

@@ -50,6 +50,7 @@ from azee_solver.geometry import (
     SitePoint,
     Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -58,6 +59,7 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
     Wave,
     WorldPoint,
     Zigzag,
@@ -180,7 +182,11 @@ class Mirror(Change):
                 return NamedPoint(self.place(place))
             case Out() | Dir() | Nrm() | Opp() | Unit() | Scale() | VSum() | VDiff() | Towards():
                 return self.rebuilt(node)
-            case SitePoint() | JointPoint() | VTranslate() | Between() | Moving():
+            case Swing():
+                return self.rebuilt(node)
+            case Was(at=tuple((x, y, z))):
+                return replace(node, point=self.node(node.point), at=(-x if x else x, y, z))
+            case SitePoint() | JointPoint() | VTranslate() | Between() | Moving() | Was():
                 return self.rebuilt(node)
             case Straight() | Arc() | Wave() | Zigzag() | Through() | Slide():
                 return self.rebuilt(node)

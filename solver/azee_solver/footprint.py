@@ -40,6 +40,7 @@ from azee_solver.geometry import (
     SitePoint,
     Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -48,6 +49,7 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
     Wave,
     WorldPoint,
     Zigzag,
@@ -162,10 +164,14 @@ class _Reader:
             case Towards(start, end):
                 self.point(start)
                 self.point(end)
+            case Swing(start, end):
+                for side in (start, end):
+                    if side is not None:
+                        self.vector(side)
 
     def point(self, expr: Point) -> None:
         match expr:
-            case FreePoint() | NamedPoint() | WorldPoint():
+            case FreePoint() | NamedPoint() | WorldPoint() | Was():
                 self.world = True
             case SitePoint(site):
                 self.site(site)

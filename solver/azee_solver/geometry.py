@@ -176,8 +176,19 @@ class Rotated:
     angle_rad: float
 
 
+@dataclass(frozen=True, slots=True)
+class Swing:
+    """`swing V W`: a dynamic direction, on the shorter arc from V to W while its block lasts.
+
+    Without V and W, as `turning` makes it, they are those of the orientations before and after.
+    """
+
+    start: Vector | None
+    end: Vector | None
+
+
 Vector: TypeAlias = (
-    Vec | Out | Dir | Nrm | Opp | Unit | Scale | VSum | VDiff | Cross | Towards | Rotated
+    Vec | Out | Dir | Nrm | Opp | Unit | Scale | VSum | VDiff | Cross | Towards | Rotated | Swing
 )
 
 # Points -------------------------------------------------------------------------------------
@@ -264,8 +275,29 @@ class WorldPoint:
     touching: tuple[Site, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Was:
+    """`was 'BLOCK P`: where a point was when a block ended.
+
+    at: that place, metres in the world of the body that plays, once motion code has measured it;
+    before, it is nowhere.
+    """
+
+    block: str
+    point: Point
+    at: tuple[float, float, float] | None = None
+
+
 Point: TypeAlias = (
-    FreePoint | NamedPoint | SitePoint | JointPoint | VTranslate | Between | Moving | WorldPoint
+    FreePoint
+    | NamedPoint
+    | SitePoint
+    | JointPoint
+    | VTranslate
+    | Between
+    | Moving
+    | WorldPoint
+    | Was
 )
 
 # Paths --------------------------------------------------------------------------------------
@@ -357,6 +389,8 @@ def _collect(node: object, found: set[Bone | Site]) -> None:
     match node:
         case Bone() | Site():
             found.add(node)
+        case Was():
+            pass  # it is over
         case tuple():
             for item in node:
                 _collect(item, found)

@@ -43,6 +43,7 @@ from azee_solver.geometry import (
     SitePoint,
     Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -51,6 +52,7 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
     Wave,
     WorldPoint,
     Zigzag,
@@ -68,7 +70,7 @@ DIRECTIONS: dict[tuple[float, float, float], str] = {
 
 def constraint_text(constraint: Constraint) -> str:
     """Return a constraint as AZee writes it, such as `place @EL(s) @PA(w) 'contact`."""
-    return " ".join(_halves(constraint))
+    return " ".join(filter(None, _halves(constraint)))
 
 
 def subject_text(constraint: Constraint) -> str:
@@ -112,6 +114,8 @@ def _halves(constraint: Constraint) -> tuple[str, str]:
             options += " 'contact" if contact else ""
             options += f" 'within {number_text(within)}" if within else ""
             return f"place {part_text(site)}", f"{point_text(point)}{options}"
+        case Orient(axis, bone, vector=Swing(None)):
+            return f"turning '{axis.value} {part_text(bone)}", ""
         case Orient(axis, bone, relation, vector, within):
             subject = f"orient '{axis.value} {part_text(bone)}"
             options = f" 'within {_degrees(within)}" if within else ""
@@ -180,6 +184,8 @@ def vector_text(vector: Vector) -> str:
             return _call("towards", point_text(start), point_text(end))
         case Rotated(of, axis, angle_rad):
             return _call("rotated", vector_text(of), vector_text(axis), _degrees(angle_rad))
+        case Swing(start, end):
+            return _call("swing", *(vector_text(v) for v in (start, end) if v is not None))
 
 
 def point_text(point: Point) -> str:
@@ -199,6 +205,8 @@ def point_text(point: Point) -> str:
             return _call("vtranslate", point_text(of), vector_text(vector))
         case Between(start, end, fraction):
             return _call("between", point_text(start), point_text(end), number_text(fraction))
+        case Was(block, of):
+            return _call("was", f"'{block}", point_text(of))
         case Moving(path, start, end):
             return _call("moving", path_text(path), point_text(start), point_text(end))
 

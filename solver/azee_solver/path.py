@@ -43,6 +43,23 @@ def unit(v: Array) -> Array:
         return np.where(size > TINY, v / size, np.nan)
 
 
+def swung(start: Array, end: Array, t: ArrayLike) -> Array:
+    """Return unit vectors on the shorter arc from one direction to another (slerp).
+
+    NaN between opposite directions, which have no shorter arc.
+    """
+    a, b = unit(start), unit(end)
+    u = np.asarray(t, dtype=np.float64)[..., None]
+    angle = 2.0 * np.arctan2(length(a - b), length(a + b))[..., None]
+    sine = np.sin(angle)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        between = (np.sin((1.0 - u) * angle) * a + np.sin(u * angle) * b) / sine
+    alike = angle < TINY
+    opposite = (np.pi - angle < 1e-6) & (u > 0.0) & (u < 1.0)
+    between = np.where(alike | (u <= 0.0), a, np.where(u >= 1.0, b, between))
+    return np.asarray(np.where(opposite, np.nan, between))
+
+
 def turned(v: Array, axis: Array, angle: ArrayLike) -> Array:
     """Turn v right-handed about a unit axis (Rodrigues)."""
     a = np.asarray(angle, dtype=np.float64)[..., None]

@@ -115,7 +115,7 @@ def _rows(tape: Tape, task: Task, weight: float, inside: float) -> list[Row]:
             return [Row(kind, tape.site(site), aim, weight, reach, slack)]
         case Orient(axis, bone, relation, vector, bound):
             within = max(bound - inside, 0.0)
-            own, aim = tape.axis(bone, axis), tape.unit(tape.vector(vector))
+            own, aim = tape.axis(bone, axis), tape.unit(tape.vector(vector, task.phase))
             if relation is Relation.ACROSS:
                 steep = math.cos(within)
                 weight, slack = weight / steep**2, math.sin(within)
@@ -125,7 +125,7 @@ def _rows(tape: Tape, task: Task, weight: float, inside: float) -> list[Row]:
             kind = block.AT_DISTANCE if within else block.MEET
             return [Row(kind, own, aim, weight, slack=slack)]
         case Look(vector):
-            aim = tape.unit(tape.vector(vector))
+            aim = tape.unit(tape.vector(vector, task.phase))
             return [Row(block.MEET, tape.gaze(eye)[1], aim, weight) for eye in EYES]
         case LookAt(point):
             aim = tape.point(point, task.phase)

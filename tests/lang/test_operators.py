@@ -52,6 +52,7 @@ from azee_solver.geometry import (
     SitePoint,
     Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -59,6 +60,7 @@ from azee_solver.geometry import (
     Vec,
     VSum,
     VTranslate,
+    Was,
     Wave,
     Zigzag,
 )
@@ -109,6 +111,8 @@ def test_every_operator_is_in_an_expression_of_these_tests() -> None:
         ("cross ^up ^fwd", Cross(UP, FWD)),
         ("towards @I_TIP(s) ^Mssp", Towards(SitePoint(TIP), MSSP)),
         ("rotated ^up ^fwd 90", Rotated(UP, FWD, math.pi / 2)),
+        ("swing ^up ^fwd", Swing(UP, FWD)),
+        ("was 'A @I_TIP(s)", Was("A", SitePoint(TIP))),
         ("point 0 -.2 .3", FreePoint(0, -0.2, 0.3)),
         ("vtranslate ^Mssp ^up", VTranslate(MSSP, UP)),
         ("between ^Mssp ^Rssp .25", Between(MSSP, RSSP, 0.25)),
@@ -173,6 +177,11 @@ def test_bones_and_sites_take_side_and_phalanx(expression: str, expected: object
         (
             "orient 'nrm !palm(s) 'along ^up 'within 45",
             Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP, math.pi / 4),
+        ),
+        ("turning 'dir !palm(s)", Orient(BoneAxis.DIR, PALM, Relation.ALONG, Swing(None, None))),
+        (
+            "shift @I_TIP(s) ^up 'from 'A 'within .1",
+            Place(TIP, VTranslate(Was("A", SitePoint(TIP)), UP), within_m=0.1),
         ),
         ("morph 'index_bend s 1 'soft", Morph("index_bend", Side.STRONG, 1.0, math.radians(40))),
         (

@@ -30,6 +30,7 @@ from azee_solver.geometry import (
     SitePoint,
     Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -38,6 +39,7 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
     Wave,
     Zigzag,
 )
@@ -302,6 +304,23 @@ OPERATORS = (
         Kind.VECTOR,
         _builds(_rotated),
         "rotated ^fwd ^up 30",
+    ),
+    _native(
+        "swing",
+        "A dynamic direction: on the shorter arc from one to another while its block lasts.",
+        (_vector("start"), _vector("end")),
+        Kind.VECTOR,
+        _builds(Swing),
+        "swing ^up ^fwd",
+    ),
+    _native(
+        "was",
+        "Where a point was when another block ended: one beside the block in which this stands, "
+        "or beside one around it.",
+        (Operand("block", "the block's name", (Kind.SYMBOL,)), _point()),
+        Kind.POINT,
+        _builds(Was),
+        "was 'P1 @WR(s)",
     ),
     _native(
         "point",

@@ -26,7 +26,16 @@ from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
-from azee_solver.constraint import LookAt, Place, Transpath
+from azee_solver.constraint import (
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import (
     Bone,
@@ -317,10 +326,16 @@ def path_sample_times(path: AnchoredPath, frames: Frames, evaluator: Evaluator) 
 
 def target_sample_times(task: TimedTask, frames: Frames, evaluator: Evaluator) -> list[Fraction]:
     """Return instants at which to sample a moving target. `frames`: one posture."""
-    assert isinstance(task.constraint, Place | LookAt)
-    point = task.constraint.point
-    phases = np.linspace(0.0, 1.0, _PATH_POINTS)
-    points = np.stack([evaluator.point(point, frames, float(s)) for s in phases])
+    phases = [float(s) for s in np.linspace(0.0, 1.0, _PATH_POINTS)]
+    match task.constraint:
+        case Place(point=point) | LookAt(point=point):
+            points = np.stack([evaluator.point(point, frames, s) for s in phases])
+        case Orient(vector=vector) | Look(vector=vector):
+            # Directions as points a turn of `SAMPLE_TURN_RAD` apart.
+            size = SAMPLE_LENGTH_M / SAMPLE_TURN_RAD
+            points = size * np.stack([evaluator.vector(vector, frames, s) for s in phases])
+        case Morph() | Trill() | Rotate() | Transpath():
+            return []
     requirement = task.requirement
     return [t for t in sample_times(points, requirement.motion) if requirement.covers(t)]
 

@@ -204,6 +204,9 @@ def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> Surrounding
     they stand out is the most of that, idle and joints bent: a bent elbow is flatter.
     """
     site, capsules, parents = rig.sites[name], rig.capsules, rig.chain.parents
+    if site.node < 0:
+        nothing = np.zeros(len(capsules.node))
+        return Surroundings(nothing, nothing)
     c = rig.coordinates
     depth, *bent = (
         np.array(

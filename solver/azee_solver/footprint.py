@@ -89,7 +89,7 @@ def footprint(constraint: Constraint, binding: Binding) -> Footprint:
     reader = _Reader(binding)
     match constraint:
         case Place(site, point):
-            own = set(binding.site(site).nodes)
+            own = set(binding.site(site).nodes) or {0}  # what stands still is placed by nothing
             reader.point(point)
         case Orient(_, bone, _, vector):
             own = {binding.bone(bone).node}
@@ -142,7 +142,9 @@ class _Reader:
             self.nodes.add(node)
 
     def site(self, site: Site) -> None:
-        self.nodes.update(self.binding.site(site).nodes)
+        nodes = self.binding.site(site).nodes
+        self.nodes.update(nodes)
+        self.world = self.world or not nodes
 
     def bone(self, bone: Bone) -> int:
         return self.binding.bone(bone).node

@@ -18,6 +18,7 @@ from azee_solver.constraint import (
     Constraint,
     Look,
     LookAt,
+    Manner,
     Morph,
     Orient,
     Place,
@@ -141,6 +142,7 @@ CONSTRAINTS: tuple[Constraint, ...] = (
     Trill(PALM, UP, 5.0, math.radians(12)),
     Trill(PALM, UP, 5.0, math.radians(30), math.radians(15), math.radians(90), 2.0),
     Transpath(TIP, Arc(Vec(0.0, 0.125, 0.0))),
+    Transpath(TIP, Straight(), Manner.SHARP_STOP),
 )
 
 

@@ -139,12 +139,24 @@ class Rotate(_Constraint):
     angle_rad: float
 
 
+class Manner(Enum):
+    """How a movement takes its time; its words are those of a text."""
+
+    TENSE = "tense"
+    SLOW_START = "slow-start"
+    SHARP_STOP = "sharp-stop"
+    SOFT = "soft"
+
+    __hash__ = object.__hash__
+
+
 @dataclass(frozen=True, slots=True)
 class Transpath(_Constraint):
     """`transpath SITE PATH`: controlled movement between the places before and after."""
 
     site: Site
     path: Path
+    manner: Manner | None = None
 
 
 Constraint: TypeAlias = Place | Orient | Look | LookAt | Morph | Trill | Rotate | Transpath

@@ -386,11 +386,11 @@ def depends_on(expr: Vector | Point | Path) -> frozenset[Bone | Site]:
 
 
 def _collect(node: object, found: set[Bone | Site]) -> None:
+    if isinstance(node, Was):
+        return  # that posture is over
     match node:
         case Bone() | Site():
             found.add(node)
-        case Was():
-            pass  # it is over
         case tuple():
             for item in node:
                 _collect(item, found)

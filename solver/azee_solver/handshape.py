@@ -79,14 +79,14 @@ def fitted(
     """Return the angles of presets, by coordinate, with thumbs beside or on what they would enter.
 
     Args: presets: angles that morphs ask for, radians, by coordinate. touching: coordinates of
-        fingers that these angles press into each other, and that give way until they touch.
+        fingers that these angles press into each other, and that move apart until they touch.
     """
     out = dict(presets)
     hands = anatomy(rig.chain, rig.coordinates).of(Part.HAND)
     for side in ("L", "R"):
         own = {v for v in presets if v in hands and f"_{side}_" in rig.coordinates.names[v]}
-        if pressed := tuple(sorted(own & touching)):
-            out |= _side_by_side(rig, side, tuple((v, out[v]) for v in sorted(own)), pressed)
+        if closing := tuple(sorted(own & touching)):
+            out |= _side_by_side(rig, side, tuple((v, out[v]) for v in sorted(own)), closing)
         out |= _fitted(rig, side, tuple((v, out[v]) for v in sorted(own)))
     return out
 
@@ -109,7 +109,7 @@ def _side_by_side(
     """Angles at which fingers of one hand that presets press together touch.
 
     At their roots neighbours share flesh, so first phalanges do not count. Fingers that bend for it
-    cross: they lie on each other, by their depth, and give way by bending. The others give way to
+    cross: they lie on each other, by their depth, and move apart by bending. The others move to
     the side, and the less the more they are bent: there a deviation would only roll them.
     """
     names, radius = rig.capsules.names, rig.capsules.radius

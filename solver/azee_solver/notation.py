@@ -138,8 +138,9 @@ def _halves(constraint: Constraint) -> tuple[str, str]:
             return f"trill {part_text(bone)}", f"{vector_text(axis)} {options}"
         case Rotate(bone, axis, angle_rad):
             return f"rotate {part_text(bone)}", f"{vector_text(axis)} {_degrees(angle_rad)}"
-        case Transpath(site, path):
-            return f"transpath {part_text(site)}", path_text(path)
+        case Transpath(site, path, manner):
+            option = "" if manner is None else f" 'manner '{manner.value}"
+            return f"transpath {part_text(site)}", f"{path_text(path)}{option}"
 
 
 def _call(name: str, *operands: str) -> str:

@@ -20,6 +20,7 @@ from azee_solver.constraint import (
     BoneAxis,
     Look,
     LookAt,
+    Manner,
     Morph,
     Orient,
     Origin,
@@ -177,6 +178,10 @@ def test_bones_and_sites_take_side_and_phalanx(expression: str, expected: object
         (
             "orient 'nrm !palm(s) 'along ^up 'within 45",
             Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP, math.pi / 4),
+        ),
+        (
+            "transpath @I_TIP(s) straight 'manner 'slow-start",
+            Transpath(TIP, Straight(), Manner.SLOW_START),
         ),
         ("turning 'dir !palm(s)", Orient(BoneAxis.DIR, PALM, Relation.ALONG, Swing(None, None))),
         (

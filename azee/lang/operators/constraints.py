@@ -26,6 +26,7 @@ from azee_solver.constraint import (
     Constraint,
     Look,
     LookAt,
+    Manner,
     Morph,
     Orient,
     Place,
@@ -108,8 +109,13 @@ def _rotate(at: Occurrence, bone: Bone, axis: Vector, angle_deg: float) -> Const
     return (Rotate(bone, axis, math.radians(angle_deg), origin=at.origin),)
 
 
-def _transpath(at: Occurrence, site: Site, path: Path) -> Constraints:
-    return (Transpath(site, path, origin=at.origin),)
+def manner_of(word: str | None) -> Manner | None:
+    """Return the manner of a movement by its word."""
+    return None if word is None else Manner(word)
+
+
+def _transpath(at: Occurrence, site: Site, path: Path, *, manner: str | None) -> Constraints:
+    return (Transpath(site, path, manner_of(manner), origin=at.origin),)
 
 
 def _trill(
@@ -283,6 +289,13 @@ def _native(
     )
 
 
+MANNER = Option(
+    "manner",
+    "how the movement takes its time",
+    Operand("manner", "a word", (Kind.SYMBOL,), words=tuple(m.value for m in Manner)),
+)
+
+
 def _within(meaning: str) -> Option:
     return Option("within", meaning, Operand("bound", "the greatest miss", (Kind.NUMBER,)), 0.0)
 
@@ -440,6 +453,7 @@ OPERATORS = (
         (_SITE, Operand("path", "a path", (Kind.PATH,))),
         _transpath,
         "transpath @I_TIP(s) (arc ^up)",
+        options=(MANNER,),
     ),
     _native(
         "cstr",

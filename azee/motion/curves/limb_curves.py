@@ -22,8 +22,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.clip.spline import minimum_jerk
+from azee.motion.curves.manner import share_of_way
 from azee.motion.curves.minimum_jerk import curve_through
+from azee_solver.constraint import Manner
 
 Array = NDArray[np.float64]
 
@@ -86,6 +87,7 @@ class LimbKey:
     time_s: on the score's time line. values: the limb's coordinates, radians. passing: the limb
     moves through it without stopping. held: something needs the limb from here until its next key.
     neutral_s: time of the transition from or to neutral; by default that of `transition_s`.
+    manner: how the limb arrives, if it has stopped before.
     """
 
     time_s: float
@@ -93,6 +95,7 @@ class LimbKey:
     passing: bool = False
     held: bool = False
     neutral_s: float | None = None
+    manner: Manner | None = None
 
     def transition_s(self, neutral: Array) -> float:
         """Time of the transition from or to neutral."""
@@ -219,7 +222,11 @@ def _sample_run(keys: Sequence[LimbKey], onsets: Onsets | None, times_s: Array, 
     values = np.stack([key.values for key in keys])
     if len(keys) == 2 and onsets is not None:
         a, b = onsets.within(values[0], values[1], end - start)
-        share = minimum_jerk((times_s[rows, None] - start - a) / (b - a))
+        share = share_of_way((times_s[rows, None] - start - a) / (b - a), keys[1].manner)
+        out[rows] = values[0] + (values[1] - values[0]) * share
+        return
+    if len(keys) == 2 and keys[1].manner is not None:
+        share = share_of_way((times_s[rows, None] - start) / (end - start), keys[1].manner)
         out[rows] = values[0] + (values[1] - values[0]) * share
         return
     if np.all(values == values[0]):

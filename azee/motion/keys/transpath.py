@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.spline import minimum_jerk
+from azee.motion.curves.manner import share_of_way
 from azee.motion.curves.movement import Movement
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.key_posture import KeyPosture
@@ -115,7 +116,8 @@ class PathMotion:
         if span <= 0:
             return 1.0
         share = min(max(float((time - self.start) / span), 0.0), 1.0)
-        return float(minimum_jerk(share + 4.0 * self.lead * share * (1.0 - share)))
+        led = share + 4.0 * self.lead * share * (1.0 - share)
+        return float(share_of_way(led, self.constraint.manner))
 
     def controls(self, time: Fraction) -> bool:
         """Whether the path, rather than a placement, holds the site at an instant."""

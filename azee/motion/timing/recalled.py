@@ -49,8 +49,8 @@ def recalled(
         ready = [w for w in waiting if not any(p[: len(w.block)] == w.block for p in pending)]
         measured: _Places = {}
         if ready:
-            settled = _rebuilt(score, _without_waiting)
-            postures = _solved(settled, evaluator, selection, solver, rest)
+            without = _rebuilt(score, _without_waiting)
+            postures = _solved(without, evaluator, selection, solver, rest)
             for one in ready:
                 place = _measured(one, postures, evaluator, rest)
                 if place is not None:

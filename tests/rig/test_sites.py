@@ -21,9 +21,8 @@ RECARRIED = {"T_NA": "thumb_{S}_3", "T_PAD": "thumb_{S}_3"}
 """Sites whose published bone contradicts their description: nail and pad are on the last one."""
 
 
-SHARED = {"EYE_R", "T_INT_R_1", "T_KN_R_1", "T_KNl_R_1", "T_l_R_1", "T_BALL_R", "TH_R"}
-"""Eyeballs have joints of their own; the thumb's first bone lies in the palm's flesh; no bone of
-AZee is a leg's."""
+SHARED = {"EYE_R", "T_INT_R_1", "T_KN_R_1", "T_KNl_R_1", "T_l_R_1", "T_BALL_R"}
+"""Eyeballs have joints of their own; the thumb's first bone lies in the palm's flesh."""
 
 
 def place(rig: Rig, q: Floats, name: str) -> tuple[Floats, Floats]:

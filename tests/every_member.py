@@ -18,6 +18,7 @@ from azee_solver.constraint import (
     Constraint,
     Look,
     LookAt,
+    Manner,
     Morph,
     Orient,
     Place,
@@ -28,6 +29,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -48,7 +50,9 @@ from azee_solver.geometry import (
     SigningSpace,
     Site,
     SitePoint,
+    Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -57,7 +61,10 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 S, W = Side.STRONG, Side.WEAK
@@ -80,6 +87,7 @@ VECTORS: tuple[Vector, ...] = (
     Cross(Nrm(HEAD), SLANTED),
     Towards(CHIN, OTHER_TIP),
     Rotated(Nrm(OTHER_PALM), SLANTED, math.radians(30)),
+    Swing(SLANTED, Nrm(OTHER_PALM)),
 )
 MOVING = Moving(Straight(), RIGHT_SPACE, VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)))
 POINTS: tuple[Point, ...] = (
@@ -91,6 +99,7 @@ POINTS: tuple[Point, ...] = (
     Between(OTHER_TIP, CHIN, 0.25),
     MOVING,
     WorldPoint(-0.2, 1.2, 0.3),
+    Was("A", OTHER_TIP, (-0.2, 1.2, 0.3)),
 )
 
 
@@ -111,17 +120,29 @@ PATHS: tuple[Path, ...] = (
     Straight(),
     Arc(Scale(Nrm(OTHER_PALM), 0.125)),
     Circle(Vec(0.0, 0.0, 1.0), 0.0625, 1.25),
+    Circle(Vec(0.0, 0.0, 1.0), 0.0625, 1.25, math.radians(60), 0.5, 0.125),
+    Around(VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)), Vec(0.0, 0.0, 1.0), 1.0),
+    Wave(Scale(Nrm(OTHER_PALM), 0.125), 1.5),
+    Zigzag(Scale(Nrm(OTHER_PALM), 0.125), 3),
+    Slide(Bone("f_arm", W), Straight()),
     Through((VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)),)),
 )
 CONSTRAINTS: tuple[Constraint, ...] = (
     Place(TIP, RIGHT_SPACE),
+    Place(TIP, RIGHT_SPACE, within_m=0.0625),
+    Place(TIP, RIGHT_SPACE, 0.125, within_m=0.0625),
     Orient(BoneAxis.NRM, PALM, Relation.ALONG, Opp(UP)),
+    Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP, math.radians(25)),
+    Orient(BoneAxis.DIR, PALM, Relation.ACROSS, UP, math.radians(25)),
     Look(Vec(0.25, 0.0, 1.0)),
     LookAt(VTranslate(CHIN, Vec(0.25, 0.0, 1.0))),
     Morph("index_bend", S, 0.5),
+    Morph("index_bend", S, 0.5, math.radians(30)),
     Rotate(HEAD, UP, math.radians(10)),
     Trill(PALM, UP, 5.0, math.radians(12)),
+    Trill(PALM, UP, 5.0, math.radians(30), math.radians(15), math.radians(90), 2.0),
     Transpath(TIP, Arc(Vec(0.0, 0.125, 0.0))),
+    Transpath(TIP, Straight(), Manner.SHARP_STOP),
 )
 
 

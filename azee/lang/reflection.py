@@ -7,6 +7,7 @@ about `a` by φ becomes one about Ma by −φ.
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
@@ -27,6 +28,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Circle,
     Cross,
@@ -45,7 +47,9 @@ from azee_solver.geometry import (
     Side,
     SigningSpace,
     SitePoint,
+    Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -54,7 +58,10 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 
@@ -137,13 +144,25 @@ class Mirror(Change):
         return _SWAPPED_PLACES.get(place, place)
 
     def constraint(self, constraint: Constraint) -> Constraint:
-        """Return the mirror image; rotations change their sense, trills go to both sides alike."""
+        """Return the mirror image; rotations change their sense.
+
+        So do trills that start or go farther to one side; the others go to both alike.
+        """
         changed: Constraint
         match constraint:
             case Morph(name=name, side=None):
                 changed = replace(constraint, name=_other_morph(name))
             case Rotate(angle_rad=angle):
                 changed = replace(self.rebuilt(constraint), angle_rad=-angle)
+            case Trill(amplitude_rad=there, back_rad=back, phase_rad=phase) if (
+                phase or back is not None
+            ):
+                changed = replace(
+                    self.rebuilt(constraint),
+                    amplitude_rad=constraint.other_rad,
+                    back_rad=None if back is None else there,
+                    phase_rad=(phase + math.pi) % (2.0 * math.pi),
+                )
             case Place() | Orient() | Look() | LookAt() | Morph() | Trill() | Transpath():
                 changed = self.rebuilt(constraint)
         return changed
@@ -162,15 +181,21 @@ class Mirror(Change):
                 return Cross(self.node(right), self.node(left))
             case Rotated(angle_rad=angle):
                 return replace(self.rebuilt(node), angle_rad=-angle)
-            case Circle(turns=turns):
+            case Circle(turns=turns, phase_rad=phase):
+                return replace(self.rebuilt(node), turns=-turns, phase_rad=-phase if phase else 0.0)
+            case Around(turns=turns):
                 return replace(self.rebuilt(node), turns=-turns)
             case NamedPoint(place):
                 return NamedPoint(self.place(place))
             case Out() | Dir() | Nrm() | Opp() | Unit() | Scale() | VSum() | VDiff() | Towards():
                 return self.rebuilt(node)
-            case SitePoint() | JointPoint() | VTranslate() | Between() | Moving():
+            case Swing():
                 return self.rebuilt(node)
-            case Straight() | Arc() | Through():
+            case Was(at=tuple((x, y, z))):
+                return replace(node, point=self.node(node.point), at=(-x if x else x, y, z))
+            case SitePoint() | JointPoint() | VTranslate() | Between() | Moving() | Was():
+                return self.rebuilt(node)
+            case Straight() | Arc() | Wave() | Zigzag() | Through() | Slide():
                 return self.rebuilt(node)
 
 

@@ -21,6 +21,7 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
     WorldPoint,
 )
 
@@ -29,7 +30,8 @@ from azee_solver.geometry import (
 class Relocation(Change):
     """Moves points in space by a vector, in metres of the reference signer.
 
-    The addressee, sites and joints stay, and so does what is measured from them. A point that was
+    The addressee, sites and joints stay, and so does what is measured from them; where a point was
+    when a block ended has moved with that block. A point that was
     moved before by the opposite vector gets its first form again: there and back is nowhere.
     """
 
@@ -46,7 +48,7 @@ class Relocation(Change):
     def point(self, point: Point) -> Point:
         """Return a point moved, or what it is made of."""
         match point:
-            case NamedPoint(SigningSpace.ADDRESSEE) | SitePoint() | JointPoint():
+            case NamedPoint(SigningSpace.ADDRESSEE) | SitePoint() | JointPoint() | Was():
                 return point
             case VTranslate(FreePoint() | NamedPoint() | WorldPoint() as inner, vector) if (
                 inner != NamedPoint(SigningSpace.ADDRESSEE) and _opposite(vector, self.vector)

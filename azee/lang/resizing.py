@@ -25,6 +25,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Circle,
     JointPoint,
@@ -34,8 +35,11 @@ from azee_solver.geometry import (
     Scale,
     Site,
     SitePoint,
+    Slide,
     Straight,
     Through,
+    Wave,
+    Zigzag,
 )
 
 _ACCENTED = ("back_1", "back_2", "neck", "head", "clav")
@@ -87,7 +91,20 @@ class Resizing(Change):
             case Arc(bulge):
                 return Arc(Scale(bulge, self.factor))
             case Circle(radius_m=radius):
-                return replace(path, radius_m=radius * self.factor) if self.factor else Straight()
+                if not self.factor:
+                    return Straight()
+                end = path.end_radius_m
+                return replace(
+                    path,
+                    radius_m=radius * self.factor,
+                    end_radius_m=None if end is None else end * self.factor,
+                )
+            case Around(centre=centre):
+                return replace(path, centre=self._drawn(site, centre))
+            case Wave(side=side) | Zigzag(side=side):
+                return replace(path, side=Scale(side, self.factor))
+            case Slide(path=inner):
+                return replace(path, path=self._path(site, inner))
             case Through(points):
                 return Through(tuple(self._drawn(site, point) for point in points))
             case Straight():

@@ -26,7 +26,7 @@ from azee_solver.constraint import (
     Transpath,
     Trill,
 )
-from azee_solver.geometry import Circle, Moving, Rotated, Side, Unit, Vector
+from azee_solver.geometry import Around, Circle, Moving, Rotated, Side, Slide, Unit, Vector
 from azee_solver.notation import vector_text
 
 Where = Callable[[Constraint], Span | None]
@@ -106,12 +106,13 @@ def _beyond_body(constraint: Constraint, dominant: Side) -> Iterator[tuple[str, 
                 "a turn is 360°; `trill` lets a bone go to and fro, `circle` leads a site around",
             )
         case Trill():
-            if abs(constraint.amplitude_rad) > MOST_TURN_RAD / 2 * _ROUNDING:
+            widest = max(constraint.amplitude_rad, constraint.other_rad, key=abs)
+            if abs(widest) > MOST_TURN_RAD / 2 * _ROUNDING:
                 yield (
-                    f"no bone goes {math.degrees(constraint.amplitude_rad):g}° to either side",
+                    f"no bone goes {math.degrees(widest):g}° to either side",
                     "`'amp` is the angle to one side, 12° unless said",
                 )
-            if constraint.frequency_hz > MOST_HZ:
+            if constraint.cycles is None and constraint.frequency_hz > MOST_HZ:
                 yield (
                     f"no body shows {constraint.frequency_hz:g} oscillations a second",
                     f"people reach fewer than {MOST_HZ:g}; `'freq` is 5 unless said",
@@ -121,7 +122,14 @@ def _beyond_body(constraint: Constraint, dominant: Side) -> Iterator[tuple[str, 
 
 
 def _beyond_speed(constraint: Constraint, duration_s: float) -> Iterator[tuple[str, str]]:
-    """Yield what is said about circles that are too fast, with the remedy."""
+    """Yield what is said about circles and counted trills that are too fast, with the remedy."""
+    if isinstance(constraint, Trill) and constraint.cycles is not None and duration_s > 0.0:
+        hz = constraint.hz(duration_s)
+        if hz > MOST_HZ:
+            yield (
+                f"no body shows {hz:g} oscillations a second",
+                f"people reach fewer than {MOST_HZ:g}: ask for fewer, or give the block more time",
+            )
     for turns_hz in _turn_rates(constraint, duration_s):
         if turns_hz > MOST_HZ:
             yield (
@@ -147,7 +155,8 @@ def _turns(constraint: Constraint) -> tuple[float, ...]:
     """Return the turns of every circle that a constraint moves on."""
     whole = (constraint.path,) if isinstance(constraint, Transpath) else ()
     inner = (node.path for node in _nodes(constraint) if isinstance(node, Moving))
-    return tuple(path.turns for path in (*whole, *inner) if isinstance(path, Circle))
+    named = [path.path if isinstance(path, Slide) else path for path in (*whole, *inner)]
+    return tuple(path.turns for path in named if isinstance(path, Circle | Around))
 
 
 @lru_cache(maxsize=4096)
@@ -168,7 +177,7 @@ def _directions(constraint: Constraint) -> Iterator[Vector]:
     for node in _nodes(constraint):
         if isinstance(node, Unit):
             yield node.vector
-        elif isinstance(node, Rotated | Circle):
+        elif isinstance(node, Rotated | Circle | Around):
             yield node.axis
 
 

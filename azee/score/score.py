@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import TypeAlias
 
 from azee.score.interval import Interval
-from azee_solver.constraint import Constraint, Origin
+from azee_solver.constraint import Constraint, Manner, Origin
 from azee_solver.geometry import Side
 
 
@@ -48,9 +48,13 @@ class _Score:
 
 @dataclass(frozen=True, slots=True)
 class Key(_Score):
-    """A set of constraints kept for a duration; zero is legal."""
+    """A set of constraints kept for a duration; zero is legal.
+
+    manner: how what they move arrives; none for the usual way.
+    """
 
     constraints: tuple[Constraint, ...] = ()
+    manner: Manner | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +128,8 @@ def came_from(score: Score, call: Call) -> Score:
     duration, calls, fixed = score.duration, (call, *score.calls), score.fixed
     match score:
         case Key():
-            return Key(duration, calls=calls, fixed=fixed, constraints=score.constraints)
+            constraints, manner = score.constraints, score.manner
+            return Key(duration, calls=calls, fixed=fixed, constraints=constraints, manner=manner)
         case Hold():
             return Hold(
                 duration, calls=calls, fixed=fixed, block=score.block, channels=score.channels

@@ -15,9 +15,10 @@ _HEAD = """# All names of the body
 
 This page lists every bone, place on the body and morph, as a text writes it. The tables write
 sides as `L` and `R`. A text may also write `s` and `w`, the strong and the weak hand, and may
-put the side of a morph after its name: `'index_bend s .5`. The names are published (P); the
-descriptions are ours (O). [vocabulary.md](vocabulary.md) explains the names of sites and lists
-corrections.
+put the side of a morph after its name: `'index_bend s .5`.
+The names are published (P), but for those that
+[vocabulary.md](vocabulary.md) calls ours (O); so are the descriptions. It also explains the names
+of sites and lists corrections.
 """
 
 _KINDS = {
@@ -27,6 +28,10 @@ _KINDS = {
         "Alternatives for the same movements or for parts of them.",
     ),
     "skeletal": ("Movements of fingers, hands and trunk", "Weight 0 is the neutral posture."),
+    "own-skeletal": (
+        "Further movements of fingers",
+        "These names are ours (O). Negative weights of the single fingers go the other way.",
+    ),
     "legacy-facial": ("Older names of movements of the face", "Published expressions use them."),
     "legacy-skeletal": (
         "Older names of movements of the hand",

@@ -1,4 +1,4 @@
-"""AZee's names: 44 bones, 292 body sites and the morphs, known without any rig.
+"""AZee's names: 44 bones, 323 body sites and the morphs, known without any rig.
 
 Tables have the full names (`index_L_2`, `I_TIP_R`, `AU12_L`). A text writes the unsided name and
 gives side and phalanx as operands (`!index s 2`); `bone_names`, `site` and `morph` say which
@@ -51,7 +51,10 @@ class SiteEntry:
 
 @dataclass(frozen=True, slots=True)
 class MorphEntry:
-    """A morph: `kind` is skeletal, facial, facial-alternative, legacy-skeletal or legacy-facial."""
+    """A morph.
+
+    `kind` is skeletal, own-skeletal, facial, facial-alternative, legacy-skeletal or legacy-facial.
+    """
 
     kind: str
     description: str

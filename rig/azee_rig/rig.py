@@ -59,7 +59,8 @@ class RigSite:
     R · normal + Σ_k R_k · normal_k: smooth in all coordinates, and as near to the blended skin
     as the shares were fitted. A site without shares is fixed in its node's frame.
 
-    node: the one that carries it. position, normal: (3,) in its frame, metres.
+    node: the one that carries it; −1 is the world, on whose legs nothing moves. position, normal:
+    (3,) in its frame, metres.
     """
 
     name: str
@@ -71,12 +72,15 @@ class RigSite:
 
     @property
     def nodes(self) -> tuple[int, ...]:
-        """All nodes that move it, its own first."""
-        return (self.node, *(share.node for share in self.shares))
+        """All nodes that move it, its own first; none where it stands still."""
+        own = (self.node,) if self.node >= 0 else ()
+        return (*own, *(share.node for share in self.shares))
 
     def point(self, frames: Frames) -> Floats:
         """Where it is in some postures, (…, 3) metres in the world."""
-        point = frames.positions[..., self.node, :] + self._turned(frames, self.node, self.position)
+        point = self._turned(frames, self.node, self.position)
+        if self.node >= 0:
+            point = point + frames.positions[..., self.node, :]
         for share in self.shares:
             point = point + self._turned(frames, share.node, share.vector)
         return np.asarray(point)
@@ -92,6 +96,8 @@ class RigSite:
 
     @staticmethod
     def _turned(frames: Frames, node: int, vector: Floats) -> Floats:
+        if node < 0:
+            return np.broadcast_to(vector, (*frames.positions.shape[:-2], 3))
         return np.asarray(frames.rotations[..., node, :, :] @ vector)
 
 

@@ -86,7 +86,7 @@ def at_bind(rig: Rig) -> tuple[AtBind, ...]:
     for i, site in enumerate(sites):
         other = place.get(other_side(site.name), points[i])
         apart = float(np.linalg.norm(points[i] * (-1.0, 1.0, 1.0) - other))
-        own = _joints(rig, site.bone)
+        own = _joints(rig, site.bone) if site.node >= 0 else _still(rig)
         near = own.union(*(_joints(rig, bone) for bone in _meeting(rig, site.bone)))
         found.append(
             AtBind(
@@ -168,6 +168,11 @@ def _meeting(rig: Rig, bone: str) -> Iterator[str]:
 def _bone_before(rig: Rig, bone: str) -> str | None:
     parent = int(rig.chain.parents[rig.bones[bone].origin_node])
     return next((name for name, nodes in rig.bones.items() if nodes.node == parent), None)
+
+
+def _still(rig: Rig) -> set[int]:
+    """Return the joints of the skeleton that no bone moves, such as those of legs."""
+    return {int(j) for j in np.flatnonzero(rig.drive.node < 0)}
 
 
 def _joints(rig: Rig, bone: str) -> set[int]:

@@ -45,7 +45,7 @@ def check_rig(rig: Rig) -> None:
     for bone, at in rig.bones.items():
         _within([at.node, at.origin_node], 0, nodes, f"bones.{bone}", "node")
     for site in rig.sites.values():
-        _within(site.nodes, 0, nodes, f"sites.{site.name}", "node")
+        _within([site.node, *site.nodes], -1, nodes, f"sites.{site.name}", "node")
         if site.bone not in rig.bones:
             raise ValueError(f"`sites.{site.name}` names a bone `{site.bone}`, which is not there")
         if not site.normal.any() and not site.shares:

@@ -20,7 +20,7 @@ from azee_grammar.vocabulary import (
 
 def test_the_published_counts() -> None:
     assert len(BONES) == 44
-    assert len(SITES) == 292
+    assert len(SITES) == 323
     kinds = [entry.kind for entry in MORPHS.values()]
     assert kinds.count("skeletal") == 31
     assert kinds.count("facial") == 70

@@ -10,6 +10,7 @@ from typing import Any
 
 from azee.lang.machine import HEAVY, Machine
 from azee.lang.native import Group, Native, Occurrence, Operand, Option, unknown_word
+from azee.lang.operators.constraints import MANNER, manner_of
 from azee.lang.sync_shape import PATTERN
 from azee.lang.synchrony import resolve_sync
 from azee.lang.values import Kind, ListValue, ScoreValue, SymbolValue, Value
@@ -36,8 +37,11 @@ def duration_of(at: Occurrence, number: float, operand: str) -> Fraction:
     return exact_seconds(number)
 
 
-def _key(at: Occurrence, duration: float, constraints: tuple[Constraint, ...]) -> Score:
-    return Key(duration_of(at, duration, "duration"), constraints=constraints)
+def _key(
+    at: Occurrence, duration: float, constraints: tuple[Constraint, ...], *, manner: str | None
+) -> Score:
+    lasts = duration_of(at, duration, "duration")
+    return Key(lasts, constraints=constraints, manner=manner_of(manner))
 
 
 def _blank(at: Occurrence, duration: float) -> Score:
@@ -145,6 +149,7 @@ OPERATORS = (
         (_DURATION, Operand("constraints", "constraints", (Kind.CONSTRAINTS,))),
         _key,
         "key .2 (place @I_TIP(s) ^Mssp)",
+        options=(MANNER,),
         published=True,
     ),
     _native(

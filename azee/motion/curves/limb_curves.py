@@ -22,8 +22,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.clip.spline import minimum_jerk
+from azee.motion.curves.manner import share_of_way
 from azee.motion.curves.minimum_jerk import curve_through
+from azee_solver.constraint import Manner
 
 Array = NDArray[np.float64]
 
@@ -86,6 +87,7 @@ class LimbKey:
     time_s: on the score's time line. values: the limb's coordinates, radians. passing: the limb
     moves through it without stopping. held: something needs the limb from here until its next key.
     neutral_s: time of the transition from or to neutral; by default that of `transition_s`.
+    manner: how the limb arrives, if it has stopped before.
     """
 
     time_s: float
@@ -93,6 +95,7 @@ class LimbKey:
     passing: bool = False
     held: bool = False
     neutral_s: float | None = None
+    manner: Manner | None = None
 
     def transition_s(self, neutral: Array) -> float:
         """Time of the transition from or to neutral."""
@@ -181,7 +184,7 @@ class _Run:
         self._knots = np.array([key.time_s for key in keys])
         self._values = np.stack([key.values for key in keys])
         self._still = bool(np.all(self._values == self._values[0]))
-        self._onsets = onsets
+        self._onsets, self._manner = onsets, keys[-1].manner
 
     def sample(self, times_s: Array, out: Array) -> None:
         """Fill in the rows of the times inside, both ends included."""
@@ -194,7 +197,11 @@ class _Run:
             out[rows] = values[-1]
         elif len(values) == 2 and self._onsets is not None:
             a, b = self._onsets.within(values[0], values[1], self.end_s - self.start_s)
-            share = minimum_jerk((times_s[rows, None] - self.start_s - a) / (b - a))
+            share = share_of_way((times_s[rows, None] - self.start_s - a) / (b - a), self._manner)
+            out[rows] = values[0] + (values[1] - values[0]) * share
+        elif len(values) == 2 and self._manner is not None:
+            lasts_s = self.end_s - self.start_s
+            share = share_of_way((times_s[rows, None] - self.start_s) / lasts_s, self._manner)
             out[rows] = values[0] + (values[1] - values[0]) * share
         else:
             out[rows] = curve_through(self._knots, values, times_s[rows])

@@ -24,6 +24,7 @@ from azee.score.interval import Interval
 from azee_rig.coordinates import Coordinates
 from azee_rig.rig import Rig
 from azee_solver import kinematics
+from azee_solver.constraint import Manner
 
 Array = NDArray[np.float64]
 
@@ -88,7 +89,7 @@ class Interpolation:
             keys = [
                 LimbKey(
                     float(p.time), p.coordinates[members], limb in p.passing, h,
-                    times[p][limb] if times else None,
+                    times[p][limb] if times else None, _manner(limb, p),
                 )
                 for p, h in zip(own, [*held, False], strict=False)
             ]  # fmt: skip
@@ -160,3 +161,12 @@ class Interpolation:
             for posture, longest in zip(some, WAY_PARTS * parts.max(axis=1), strict=True):
                 out[posture] = dict(zip(arms, longest.tolist(), strict=True))
         return out
+
+
+def _manner(limb: str, posture: KeyPosture) -> Manner | None:
+    """Return how a limb arrives at a posture: as a block says that begins there and moves it."""
+    for task in posture.timed_tasks:
+        begins = task.requirement.manner is not None and task.interval.start == posture.time
+        if begins and limb in task.limbs:
+            return task.requirement.manner
+    return None

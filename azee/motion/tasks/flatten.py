@@ -78,11 +78,12 @@ def _required(
     leaf: Leaf, inside: _Inside, holding: tuple[tuple[str, ...], ...]
 ) -> Iterator[Requirement]:
     match leaf.score:
-        case Key(constraints=constraints):
+        case Key(constraints=constraints, manner=manner):
             for constraint in constraints:
                 yield Requirement(
-                    constraint, leaf.path, _rule(leaf), leaf.interval, leaf.interval, rank=0
-                )
+                    constraint, leaf.path, _rule(leaf), leaf.interval, leaf.interval, rank=0,
+                    manner=manner,
+                )  # fmt: skip
         case Hold():
             yield from _held(leaf, leaf.score, inside, holding)
         case Blank():

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from azee.score.interval import Interval
-from azee_solver.constraint import Constraint
+from azee_solver.constraint import Constraint, Manner
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +17,8 @@ class Requirement:
     application it stands in. interval: when it holds. motion: the interval over which its dynamic
     points move; differs from `interval` in a hold, which keeps them where they ended. rank: order
     in the nesting, which breaks ties between blocks of equal start. held_channels: which parts of
-    the body each hold keeps that it comes through; only a rig tells which part it concerns.
+    the body each hold keeps that it comes through; only a rig tells which part it concerns. manner:
+    how its block arrives.
     """
 
     constraint: Constraint
@@ -27,6 +28,7 @@ class Requirement:
     motion: Interval
     rank: int
     held_channels: tuple[tuple[str, ...], ...] = ()
+    manner: Manner | None = None
 
     def covers(self, time: Fraction) -> bool:
         """Whether it holds at an instant, both ends included."""

@@ -117,6 +117,8 @@ class _Fit:
 
     def ridden(self, i: int, site: RigSite) -> RigSite:
         """Return site i with the shares of further nodes that it needs, if any."""
+        if site.node < 0:
+            return site
         wanted = self.skins[:, i] - self.frames.positions[:, site.node]
         others = [node for node in self._candidates(i, site.node) if node != site.node]
         nodes = (site.node, *others)

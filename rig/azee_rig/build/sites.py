@@ -4,7 +4,8 @@ The rules are data (data/site_rules.csv), one row per family of names, so that a
 its sites by the same rows. Columns:
 
 name, digits, phalanges: `{F}` is a digit's letter, `{S}` the side, `{k}` the phalanx.
-bone: the AZee bone; node: the bone or helper node that carries the site, where another does.
+bone: the AZee bone; node: the bone or helper node that carries the site, where another does, or
+`world`: legs stand still, and no AZee bone is theirs.
 from, to, at: the ray starts at that fraction of the way between two joints; or from the middle
 between the eyes (`eyes`).
 shift, unit: moves the start, along out · dir · nrm (limbs) or out · up · forward (head, trunk),
@@ -33,7 +34,7 @@ Floats = NDArray[np.float64]
 DIGIT = {"T": "thumb", "I": "index", "M": "middle", "R": "ring", "L": "little"}
 BESIDE = 0.75
 """How far beside the skin a ray may pass, in lengths of the bone or distances between the eyes."""
-AXIAL = ("back", "neck", "head", "eye", "clav")
+AXIAL = ("back", "neck", "head", "eye", "clav", "world")
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +56,7 @@ class SiteRule:
 
 
 def read_rules(path: Path) -> Iterator[SiteRule]:
-    """All rules, written out: 292 for AZee's table."""
+    """All rules, written out: 292 for AZee's table and 31 of our own."""
     with path.open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             sides = SIDES if "{S}" in row["name"] else ("",)
@@ -131,9 +132,8 @@ class SitePlacer:
 
     def place(self, rule: SiteRule) -> RigSite:
         """Cast the rule's ray. Raises ValueError, with the site's name, when it meets nothing."""
-        node = self._node(rule)
-        R, origin = self.frames.rotations[node], self.frames.positions[node]
-        axes = self._axes(rule)
+        node, axes = self._node(rule), self._axes(rule)
+        R, origin = self._frame(node)
         start = self._start(rule, axes)
         try:
             point, normal = self.surface.cast(
@@ -159,7 +159,7 @@ class SitePlacer:
     def _beside(self, rule: SiteRule) -> RigSite | None:
         """Place a site on the skin that its ray passes nearest to."""
         node, axes = self._node(rule), self._axes(rule)
-        R, origin = self.frames.rotations[node], self.frames.positions[node]
+        R, origin = self._frame(node)
         reach = BESIDE * self._lengths(rule)["eyes" if rule.bone == "head" else "bone"]
         found = self.surface.passed(
             self._start(rule, axes), axes @ rule.toward, self._allowed(rule), reach
@@ -169,7 +169,15 @@ class SitePlacer:
         point, normal = found
         return RigSite(rule.name, rule.bone, node, R.T @ (point - origin), R.T @ normal)
 
+    def _frame(self, node: int) -> tuple[Floats, Floats]:
+        """Rotation and origin of a node; of the world for −1."""
+        if node < 0:
+            return np.eye(3), np.zeros(3)
+        return self.frames.rotations[node], self.frames.positions[node]
+
     def _node(self, rule: SiteRule) -> int:
+        if rule.node == "world":
+            return -1
         named = self.bones.get(rule.node)
         return self.nodes.index(rule.node) if named is None else named.node
 

@@ -76,9 +76,9 @@ def bare_armature(body: Rig) -> Rig:
         "face_morphs": {},
     }
     for site in body.sites.values():
-        carrier = above[site.node]
-        if part_left_out(chain.names[site.node]):
+        if site.node < 0 or part_left_out(chain.names[site.node]):
             continue
+        carrier = above[site.node]
         turn = at_zero.rotations[carrier].T
         world = site.point(at_zero)
         given["sites"][site.name] = RigSite(
@@ -88,7 +88,7 @@ def bare_armature(body: Rig) -> Rig:
             turn @ (world - at_zero.positions[carrier]),
             turn @ at_zero.rotations[site.node] @ site.normal,
         )
-    # Nodes that only the skin needs are left out.
+    # Nodes that only the skin needs are left out, and sites that nothing moves.
     everything: dict[str, Any] = {f.name: given.get(f.name) for f in fields(Rig)}
     return Rig(**everything)
 

@@ -53,6 +53,7 @@ from azee_solver.geometry import (
     Vec,
     Vector,
     VTranslate,
+    Was,
 )
 
 SIGNS = ("arbre", "armoire", "bien", "personne", "âge", "Irak", "chat", "bonjour", "nb-7")
@@ -157,7 +158,8 @@ def test_a_point_in_space_lies_as_much_farther(point: Point, vector: Vector, sig
 
     way = at(Relocation(vector).point(point)) - at(point)
     whole = at(VTranslate(point, vector)) - at(point)
-    share = {Between: 0.0, VTranslate: 0.0, SitePoint: 0.0, JointPoint: 0.0, Moving: 0.7}
+    stays = dict.fromkeys((Between, VTranslate, SitePoint, JointPoint, Was), 0.0)
+    share = {**stays, Moving: 0.7}
     np.testing.assert_allclose(way, whole * share.get(type(point), 1.0), atol=1e-12)
 
 

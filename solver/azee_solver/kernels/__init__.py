@@ -9,7 +9,8 @@ to 1. Where a coordinate follows another, as a finger's last joint follows the o
 2/3 of the other's angle.
 
 A residual e_k compares two entries a and b of a tape: a − b for places and parallels, |a − b| − d
-for places at a distance, a · b for perpendiculars. The gradient costs one reverse sweep: every pull
+for places at a distance, a · b for perpendiculars. The last two may have a dead zone: of what is
+inside ± slack nothing is left. The gradient costs one reverse sweep: every pull
 on a point or direction becomes a force F and a moment M about the world's origin on its node, both
 are added up towards the root, and a coordinate that turns about axis u through o has the
 derivative u · (M − o × F).

@@ -27,8 +27,17 @@ SIGNS = (
     *("mignon", "bonjour", "mercredi", "tree", "wardrobe", "cinema", "good", "person", "age"),
     *("country", "Iraq", "cat", "cute", "hello", "Wednesday"),
 )
-POSTURES = {"shape": ":#fist", "more": ":#fist"}
-OPERATORS = {"tens": ".nb-5", "units": ".nb-2"}
+ARGUMENTS = {
+    **dict.fromkeys(("pt", "loc", "centre"), "^Rssp"),
+    **dict.fromkeys(("shape", "more"), ":#fist"),
+    **dict.fromkeys(("tens", "units"), ".nb-2"),
+    "items": "list((blank 1), (blank 1))",
+    "places": "list(^Lssp, ^Rssp)",
+    "face": ".frown",
+    "class": ".building-cl",
+}
+"""What stands for an argument that must be given, by its name; a score for any other."""
+OF_MULTIPLES = {"elt": ".personne"}
 
 
 def _application(rule: Rule) -> str:
@@ -38,9 +47,7 @@ def _application(rule: Rule) -> str:
 
 
 def _argument(rule: Rule, name: str) -> str:
-    if name in ("pt", "loc"):
-        return f"'{name} = ^Rssp"
-    given = POSTURES | OPERATORS if rule.name in ("number-sign", "tens-units") else {}
+    given = ARGUMENTS | (OF_MULTIPLES if rule.name.startswith("mult-") else {})
     return f"'{name} = {given.get(name, '(blank 1)')}"
 
 

@@ -38,8 +38,9 @@ ENTRIES: Mapping[Kind, KindEntry] = {
         published=True,
     ),
     Kind.TEXT: KindEntry(
-        "Words for people, as in the `'meaning` of a rule. Operators do not use them.",
-        '"tree, as a plant"',
+        "Words, as in the `'meaning` of a rule, or letters to be spelt. `rule` finds the rule "
+        "whose name is a text.",
+        'concat "nb-" 5',
         published=False,
     ),
     Kind.SIDE: KindEntry(

@@ -102,7 +102,7 @@ class Librarian:
 
         Without any `use`, the default library is in scope.
         """
-        scope = Scope(namespace, self._core)
+        scope = Scope(namespace, self._core, shipped=_shipped_rules)
         problems: list[Diagnostic] = []
         uses = [item for item in file.items if isinstance(item, Use)]
         for use in uses:
@@ -295,7 +295,7 @@ def shipped_library(name: str) -> Library:
         source = Source(f"{name}/{path.name}", read_source(path).text)
         parsed = parse(source)
         library.diagnostics += parsed.diagnostics
-        scope = Scope(library.namespace, core)
+        scope = Scope(library.namespace, core, shipped=_shipped_rules)
         for item in parsed.file.items:
             if isinstance(item, Use):
                 scope.libraries.append(shipped_library(item.library.name).namespace)
@@ -303,3 +303,7 @@ def shipped_library(name: str) -> Library:
             library.namespace, definitions(parsed.file), scope, SHIPPED_RESOLVING
         )
     return library
+
+
+def _shipped_rules(name: str) -> Namespace | None:
+    return shipped_library(name).namespace if name in shipped_names() else None

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from azee.lang.fault import Exhausted, Fault
 from azee.lang.procedure import Applicable, Procedure
+from azee.lang.scope import Namespace
 from azee.lang.values import OperatorValue, ScoreValue, Value
 from azee.score.score import Call, came_from
 from azee_grammar.diagnostic import Diagnostic
@@ -40,10 +41,14 @@ HEAVY = 5
 class Machine:
     """Evaluates within limits. One machine serves one utterance."""
 
-    __slots__ = ("_results", "depth", "limits", "steps")
+    __slots__ = ("_results", "depth", "libraries", "limits", "steps")
 
-    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
+    def __init__(
+        self, limits: Limits = DEFAULT_LIMITS, libraries: Sequence[Namespace] = ()
+    ) -> None:
         self.limits = limits
+        self.libraries = libraries
+        """What the evaluated text uses: rules of other libraries find these by name."""
         self.steps = 0
         self.depth = 0
         self._results: dict[Procedure, Value] = {}

@@ -74,7 +74,7 @@ def _dependent(native: Native) -> str:
     """Describe the result of an operator if it depends on the operands."""
     if native.name in ("def", "use"):
         return ""
-    if native.name in ("mirror", "with-dominant"):
+    if native.name in ("mirror", "with-dominant", "relocate"):
         return f"{Kind.SCORE.value} or {Kind.CONSTRAINTS.value}, like its content"
     return "a value of the kind that its operands make"
 

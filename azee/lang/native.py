@@ -23,6 +23,7 @@ class Group(Enum):
 
     LANGUAGE = "Language"
     LISTS = "Lists and numbers"
+    TEXTS = "Texts"
     GEOMETRY = "Geometry"
     CONSTRAINTS = "Constraints"
     SCORES = "Scores"

@@ -204,7 +204,7 @@ class Program:
         resolver = self.resolving.resolver(self.scope, None, diagnostics)
         code = resolver.resolve(expr, frozenset(names))
         try:
-            return code.evaluate(Machine(self.limits), names)
+            return code.evaluate(Machine(self.limits, self.scope.libraries), names)
         except Fault as problem:
             diagnostics += problem.diagnostics
             return None

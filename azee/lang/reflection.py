@@ -8,7 +8,6 @@ about `a` by φ becomes one about Ma by −φ.
 from __future__ import annotations
 
 import re
-from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
@@ -63,21 +62,21 @@ class NoMirrorImage(Exception):  # noqa: N818 - what it says is a fact about a m
     """A morph of one side that the other side lacks."""
 
 
-class Change(ABC):
-    """A change of sides, applied to everything in a score."""
+class Change:
+    """A change applied to everything in a score; sides and places stay, unless it changes them."""
 
     __slots__ = ()
 
-    @abstractmethod
     def side(self, side: Side) -> Side:
         """Return the new side for a side."""
+        return side
 
-    @abstractmethod
     def place(self, place: SigningSpace) -> SigningSpace:
         """Return the new place for a named place."""
+        return place
 
     def score(self, score: Score) -> Score:
-        """Return the score with every side changed; times stay."""
+        """Return the score with all its constraints changed; times stay."""
         if isinstance(score, Key):
             return replace(score, constraints=tuple(self.constraint(c) for c in score.constraints))
         if isinstance(score, Group):
@@ -88,7 +87,7 @@ class Change(ABC):
         return score
 
     def constraint(self, constraint: Constraint) -> Constraint:
-        """Return the constraint with every side changed."""
+        """Return the constraint with all its parts changed."""
         changed: Constraint = self.rebuilt(constraint)
         return changed
 

@@ -5,10 +5,32 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from azee.lang.native import Native
-from azee.lang.operators import constraints, geometry, language, lists, scores, sides
+from azee.lang.operators import (
+    constraints,
+    geometry,
+    kinds,
+    language,
+    lists,
+    rules,
+    score_changes,
+    scores,
+    sides,
+    texts,
+)
 
 NATIVES: Mapping[str, Native] = {
     native.name: native
-    for module in (language, lists, geometry, constraints, scores, sides)
+    for module in (
+        language,
+        kinds,
+        lists,
+        texts,
+        rules,
+        geometry,
+        constraints,
+        scores,
+        score_changes,
+        sides,
+    )
     for native in module.OPERATORS
 }

@@ -27,9 +27,10 @@ from azee.lang.procedure import FormalParameter
 from azee.lang.registry import NATIVES
 from azee.lang.resolution import Steps, Visible, run
 from azee.lang.rule import Rule
+from azee.lang.rule_by_name import ambiguous
 from azee.lang.scope import AmbiguousRule, Scope
 from azee.lang.values import Kind, NumberValue, SideValue, SymbolValue, TextValue
-from azee_grammar.diagnostic import Diagnostic, Related
+from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.source import Span
 from azee_grammar.syntax import (
     Application,
@@ -218,20 +219,8 @@ class Resolver:
         span = expr.head.span
         try:
             rule = self.scope.find(name)
-        except AmbiguousRule as ambiguity:
-            libraries = " and ".join(f"`'{r.library}`" for r in ambiguity.rules)
-            self.report(
-                Diagnostic(
-                    "ambiguous-rule",
-                    f"`:{name}` is defined in the libraries {libraries}",
-                    span,
-                    help="define a rule of that name in this file to say which is meant",
-                    related=tuple(
-                        Related(f"defined in `'{r.library}`", r.definition.name_span)
-                        for r in ambiguity.rules
-                    ),
-                )
-            )
+        except AmbiguousRule as several:
+            self.report(ambiguous(f"`:{name}`", several, span))
             return None
         if rule is None:
             message = f"there is no rule `:{name}`"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -35,7 +35,7 @@ class Scope:
 
     `libraries` is filled after its rules are made, since libraries may use each other. `siblings`
     are the rules of the library that the text is a file of, if it is read alone. `dropped` is the
-    default library where the text uses others instead.
+    default library where the text uses others instead. `shipped` finds a library that ships.
     """
 
     own: Namespace
@@ -43,6 +43,7 @@ class Scope:
     libraries: list[Namespace] = field(default_factory=list)
     siblings: Namespace | None = None
     dropped: Namespace | None = None
+    shipped: Callable[[str], Namespace | None] = lambda name: None
 
     def find(self, name: str) -> Rule | None:
         """Return the rule that a name means here.

@@ -108,7 +108,11 @@ class Analysis:
         changed = {name for name in names if self._rules.get(name) != before.rules.get(name)}
         if not changed:
             return before.items
-        return frozenset(item for item in before.items if changed.isdisjoint(self._reached(item)))
+        return frozenset(
+            item
+            for item in before.items
+            if (reached := self._reached(item)).isdisjoint(_FINDERS) and changed.isdisjoint(reached)
+        )
 
     def _reached(self, item: Item) -> set[str]:
         """Return the names of all rules that an item mentions, and that those mention in turn."""
@@ -128,6 +132,10 @@ class Analysis:
     @cached_property
     def _mentioned(self) -> dict[int, tuple[Item, frozenset[str]]]:
         return {}
+
+
+_FINDERS = ("rule", "has-rule")
+"""Operators that find a rule by a text, which may be the name of any."""
 
 
 def _names(item: Item) -> Iterator[str]:

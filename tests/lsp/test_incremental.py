@@ -21,6 +21,9 @@ ITEMS = (
     ":b('x = :a)\n",
     ":chat\n",
     ":chat(\n",
+    'apply rule("a")\n',
+    'def c\n    if has-rule(concat("a")) :chat nobody()\n',
+    ":c\n",
     "seq(:a, .b)\n",
     "use 'core\n",
 )

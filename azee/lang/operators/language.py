@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from unicodedata import normalize
 
 from azee.lang.application import Apply, not_an_operator
 from azee.lang.arguments import Given, given_arguments
@@ -11,7 +12,7 @@ from azee.lang.control import Closure, If, Junction, Let, not_a_boolean
 from azee.lang.form import Resolve, exactly
 from azee.lang.native import Group, Native, Occurrence, Operand
 from azee.lang.resolution import Steps, Visible
-from azee.lang.values import Kind, Value
+from azee.lang.values import Kind, TextValue, Value
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.syntax import Application, Expr, Symbol
 from azee_solver.geometry import Side
@@ -129,6 +130,8 @@ def _eq(at: Occurrence, left: Value, right: Value) -> bool:
         raise at.fault("wrong-type", message, "right", label=f"this is {right.kind.value}")
     if isinstance(left.content, Side) and isinstance(right.content, Side):
         _require_same_kind_of_side(at, left.content, right.content)
+    if isinstance(left, TextValue) and isinstance(right, TextValue):
+        return normalize("NFC", left.content) == normalize("NFC", right.content)
     return left.content == right.content
 
 

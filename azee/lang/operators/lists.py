@@ -46,6 +46,32 @@ def _div(at: Occurrence, left: float, right: float) -> float:
     return _finite(at, left / right)
 
 
+def _quotient(at: Occurrence, dividend: float, divisor: float) -> float:
+    return _finite(at, _divided(at, dividend, divisor)[0])
+
+
+def _remainder(at: Occurrence, dividend: float, divisor: float) -> float:
+    return _divided(at, dividend, divisor)[1]
+
+
+def _divided(at: Occurrence, dividend: float, divisor: float) -> tuple[float, float]:
+    if divisor == 0:
+        raise at.fault("division-by-zero", "this divides by zero", "divisor")
+    return divmod(dividend, divisor)
+
+
+MOST_DIGITS = 15
+"""Of a whole number that a float64 has exactly."""
+
+
+def _digits(at: Occurrence, number: float) -> Value:
+    if number != int(number) or not 0 <= number < 10**MOST_DIGITS:
+        message = f"`digits` wants a whole number from 0, of {MOST_DIGITS} digits at most"
+        raise at.fault("number-range", message, "number")
+    digits = tuple(NumberValue(float(digit)) for digit in str(int(number)))
+    return ListValue(digits, len(digits) + 1, 2)
+
+
 def _neg(at: Occurrence, number: float) -> float:
     return -number
 
@@ -63,6 +89,27 @@ def _nth(at: Occurrence, values: tuple[Value, ...], index: float) -> Value:
 
 def _count(at: Occurrence, values: tuple[Value, ...]) -> float:
     return float(len(values))
+
+
+def _join(at: Occurrence, machine: Machine, lists: tuple[ListValue, ...]) -> Value:
+    size = 1 + sum(part.size - 1 for part in lists)
+    machine.require_size(size, at.span)
+    values = tuple(value for part in lists for value in part.content)
+    machine.spend(len(values), at.span)
+    return ListValue(values, size, max((part.depth for part in lists), default=1))
+
+
+def _part(
+    at: Occurrence, machine: Machine, values: tuple[Value, ...], first: float, last: float
+) -> Value:
+    count = len(values)
+    for number, name in ((first, "first"), (last, "last")):
+        if number != int(number) or not (1 <= number <= count or first > last):
+            have = f"the list has the elements 1 to {count}" if count else "the list is empty"
+            raise at.fault("index-range", f"there is no element {number:g}: {have}", name)
+    chosen = values[int(first) - 1 : int(last)] if first <= last else ()
+    machine.spend(len(chosen), at.span)
+    return _listed(at, machine, [*chosen])
 
 
 def _range(at: Occurrence, machine: Machine, first: float, last: float) -> Value:
@@ -159,6 +206,31 @@ OPERATORS = (
         "div 1 4",
     ),
     _native(
+        "quotient",
+        "How often the second number goes into the first: a whole number, rounded down.",
+        (_number("dividend"), _number("divisor")),
+        Kind.NUMBER,
+        _quotient,
+        "quotient 1984 100",
+    ),
+    _native(
+        "remainder",
+        "What is left of the first number when the second has been taken as often as it goes.",
+        (_number("dividend"), _number("divisor")),
+        Kind.NUMBER,
+        _remainder,
+        "remainder 1984 100",
+    ),
+    _native(
+        "digits",
+        "The decimal digits of a whole number, the highest first.",
+        (_number("number", "a whole number from 0"),),
+        Kind.LIST,
+        _digits,
+        "digits 52",
+        whole=True,
+    ),
+    _native(
         "neg", "A number with the other sign.", (_number("number"),), Kind.NUMBER, _neg, "neg 1"
     ),
     _native(
@@ -180,6 +252,27 @@ OPERATORS = (
     ),
     _native(
         "count", "How many elements a list has.", (_LIST,), Kind.NUMBER, _count, "count (list 1 2)"
+    ),
+    _native(
+        "join",
+        "One list of the elements of several.",
+        (Operand("list", "a list", (Kind.LIST,), rest=True, raw=True),),
+        Kind.LIST,
+        _join,
+        "join (list 1 2) (list 3)",
+        uses_machine=True,
+        whole=True,
+    ),
+    _native(
+        "part",
+        "The elements of a list from one number to another, both included; none if the first "
+        "number is the greater.",
+        (_LIST, _number("first", "from 1"), _number("last", "from 1")),
+        Kind.LIST,
+        _part,
+        "part (list 'a 'b 'c) 2 3",
+        uses_machine=True,
+        whole=True,
     ),
     _native(
         "map",

@@ -27,7 +27,8 @@ def exact_seconds(number: float) -> Fraction:
     return Fraction(repr(number))
 
 
-def _duration(at: Occurrence, number: float, operand: str) -> Fraction:
+def duration_of(at: Occurrence, number: float, operand: str) -> Fraction:
+    """Return a number of seconds as a time. Raises: Fault: it is negative, or longer than a day."""
     if number < 0:
         raise at.fault("negative-duration", "a duration cannot be negative", operand)
     if number > LONGEST_S:
@@ -36,16 +37,16 @@ def _duration(at: Occurrence, number: float, operand: str) -> Fraction:
 
 
 def _key(at: Occurrence, duration: float, constraints: tuple[Constraint, ...]) -> Score:
-    return Key(_duration(at, duration, "duration"), constraints=constraints)
+    return Key(duration_of(at, duration, "duration"), constraints=constraints)
 
 
 def _blank(at: Occurrence, duration: float) -> Score:
-    return Blank(_duration(at, duration, "duration"))
+    return Blank(duration_of(at, duration, "duration"))
 
 
 def _hold(at: Occurrence, what: Value, duration: float, *, only: Value | None) -> Score:
     kept = _channels(at, only)
-    duration_s = _duration(at, duration, "duration")
+    duration_s = duration_of(at, duration, "duration")
     if isinstance(what, SymbolValue):
         return Hold(duration_s, block=what.content, channels=kept)
     assert isinstance(what, ScoreValue)
@@ -86,7 +87,7 @@ def _seq(at: Occurrence, machine: Machine, values: tuple[Value, ...], *, gap: fl
             raise at.fault("wrong-type", message, "list")
         scores.append(value.content)
     try:
-        return in_sequence(scores, _duration(at, gap, "gap"))
+        return in_sequence(scores, duration_of(at, gap, "gap"))
     except LayoutError as problem:
         raise at.fault(problem.code, str(problem), "list") from None
 

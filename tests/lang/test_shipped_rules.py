@@ -28,13 +28,15 @@ SIGNS = (
     *("country", "Iraq", "cat", "cute", "hello", "Wednesday"),
 )
 ARGUMENTS = {
-    **dict.fromkeys(("pt", "loc", "centre"), "^Rssp"),
-    **dict.fromkeys(("shape", "more"), ":#fist"),
+    **dict.fromkeys(("pt", "loc", "centre", "from", "to", "position", "looking-at"), "^Rssp"),
+    **dict.fromkeys(("shape", "more", "hand"), ":#fist"),
     **dict.fromkeys(("tens", "units"), ".nb-2"),
     "items": "list((blank 1), (blank 1))",
-    "places": "list(^Lssp, ^Rssp)",
+    "offsets": "list(^left, ^right)",
     "face": ".frown",
     "class": ".building-cl",
+    "n": "3",
+    "param$0": "s",
 }
 """What stands for an argument that must be given, by its name; a score for any other."""
 OF_MULTIPLES = {"elt": ".personne"}
@@ -43,7 +45,7 @@ OF_MULTIPLES = {"elt": ".personne"}
 def _application(rule: Rule) -> str:
     """The rule applied with an argument for everything that must be given."""
     arguments = [_argument(rule, name) for name, mandatory in rule.parameters if mandatory]
-    return f"{rule.name}({', '.join(arguments)})"
+    return f":{rule.name}({', '.join(arguments)})"
 
 
 def _argument(rule: Rule, name: str) -> str:

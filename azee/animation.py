@@ -46,6 +46,7 @@ from azee.quality.task_spans import task_spans
 from azee.score.score import Score
 from azee.score.stretch import paced
 from azee_rig.rig import Rig
+from azee_solver import kinematics
 from azee_solver.evaluate import Evaluator
 from azee_solver.evaluate import evaluator as evaluator_of
 from azee_solver.geometry import Side
@@ -162,7 +163,7 @@ def animate(
         q = project(planned, reference, float(fps))
     else:
         q = np.clip(reference.q, rig.coordinates.lower, rig.coordinates.upper)
-    samples = inside(times, q, rig.chain.frames(q), score.duration)
+    samples = inside(times, q, kinematics.frames(rig.chain, q), score.duration)
 
     # 13. Add trills, the face, blinks, and lids that follow the eyes.
     seconds = np.array([float(time) for time in times])

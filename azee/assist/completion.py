@@ -77,7 +77,7 @@ def _candidates(where: Place, wanted: Expected, knowledge: Knowledge) -> Iterato
         case "'":
             yield from wanted.symbols
         case "^":
-            yield from visible_locals(where)
+            yield from visible_locals(where, knowledge)
             yield from _fitting(filter(None, map(description.constant, CONSTANTS)), wanted)
             yield from filter(None, map(description.constant, CONSTANTS))
         case "!":
@@ -94,7 +94,7 @@ def _values(where: Place, wanted: Expected, knowledge: Knowledge) -> Iterator[De
     """Yield everything that gives a value: certain candidates first, possible ones last."""
     if where.frame.head is None and where.frame.parent is None:
         yield from map(description.operator, (NATIVES["def"], NATIVES["use"]))
-    yield from visible_locals(where)
+    yield from visible_locals(where, knowledge)
     if wanted.kinds:
         if Kind.SIDE in wanted.kinds:
             yield from filter(None, map(description.side, "swLR"))
@@ -103,7 +103,7 @@ def _values(where: Place, wanted: Expected, knowledge: Knowledge) -> Iterator[De
         if wanted.accepts(Kind.SITE):
             yield from filter(None, map(description.site, vocabulary.site_names()))
         yield from _fitting(filter(None, map(description.constant, CONSTANTS)), wanted)
-    natives = [native for native in NATIVES.values() if native.name not in ("def", "use")]
+    natives = [native for native in NATIVES.values() if native.name not in ("def", "use", "places")]
     yield from (description.operator(n) for n in natives if n.result in wanted.kinds)
     yield from _rules(where, wanted, knowledge, ":")
     yield from (description.operator(n) for n in natives if wanted.accepts(n.result))
@@ -136,8 +136,8 @@ def _is_posture(kind: Kind | None, wanted: Expected) -> bool:
     return kind is Kind.CONSTRAINTS and Kind.CONSTRAINTS in wanted.kinds
 
 
-def visible_locals(where: Place) -> Iterator[Description]:
-    """Yield the parameters and local names that are visible at a place, the innermost first."""
+def visible_locals(where: Place, knowledge: Knowledge) -> Iterator[Description]:
+    """Yield parameters, local names and the text's places that are visible, the innermost first."""
     inside: Frame | None = None
     for frame in where.frame.outwards():
         head = frame.head
@@ -150,6 +150,8 @@ def visible_locals(where: Place) -> Iterator[Description]:
                 if i == 0:
                     yield Description(What.LOCAL, f"^{name}", f"^{name}", "a local name")
         inside = frame
+    for name in knowledge.scope.places:
+        yield Description(What.LOCAL, f"^{name}", f"^{name}", "a place of this text")
 
 
 def _is_body(let: Frame, inside: Frame | None, where: Place) -> bool:

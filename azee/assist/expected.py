@@ -23,6 +23,7 @@ _ENTRIES = {
     "source": "who described it, and where",
     "status": f"how far its form is testimony: {', '.join(STATUSES)}",
     "example": "an expression that shows it",
+    "refers": "arguments that are places where something was put before",
 }
 
 

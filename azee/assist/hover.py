@@ -52,7 +52,7 @@ def _meaning(where: Place, knowledge: Knowledge) -> Description | None:
         case "SIDE":
             return description.side(token.text)
         case "PARAMETER":
-            named = (d for d in visible_locals(where) if d.title == f"^{token.text}")
+            named = (d for d in visible_locals(where, knowledge) if d.title == f"^{token.text}")
             return next(named, None) or description.constant(token.text)
         case "SYMBOL":
             return _symbol(where, token.text, knowledge)

@@ -17,8 +17,8 @@ def minimum_jerk(tau: ArrayLike) -> Array:
     This is the movement between two standing points with the least third derivative: speed and
     acceleration are zero at both ends. Times outside stay at the nearer end.
     """
-    t = np.clip(np.asarray(tau, dtype=np.float64), 0.0, 1.0)
-    return np.asarray(np.clip(t**3 * (10.0 + t * (-15.0 + 6.0 * t)), 0.0, 1.0))
+    t = np.minimum(np.maximum(np.asarray(tau, dtype=np.float64), 0.0), 1.0)
+    return np.minimum(t * t * t * (10.0 + t * (-15.0 + 6.0 * t)), 1.0)
 
 
 def cubic_spline(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:

@@ -9,7 +9,7 @@ from typing import Generic, TypeVar
 from azee.lang.fault import did_you_mean
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.source import Span
-from azee_grammar.syntax import Application, Expr, Named, Symbol
+from azee_grammar.syntax import Application, Expr, Named, OperatorName, Symbol
 
 T = TypeVar("T")
 
@@ -59,6 +59,11 @@ def _in_pairs(
     i = 0
     while i < len(operands):
         name = operands[i]
+        astray = _astray(operands, i, parameters)
+        if astray:
+            problems.append(_open_operator(operands[i - 1], astray))
+            i += len(astray)
+            continue
         if not isinstance(name, Symbol):
             problems.append(_nameless(name, title, parameters))
             i += 1
@@ -74,6 +79,36 @@ def _in_pairs(
         given.append(Given(value, value.span, name.name, name.span))
         i += 2
     return given, problems
+
+
+def _astray(
+    operands: Sequence[Expr | Named], i: int, parameters: Collection[str]
+) -> Sequence[Expr | Named]:
+    """Return operands from `i` on that were meant for the operator before them on their line."""
+    operator = operands[i - 1] if i else None
+    if not isinstance(operator, Application) or operator.operands or operator.called:
+        return ()
+    if not isinstance(operator.head, OperatorName) or not parameters:
+        return ()
+    end = i
+    while end < len(operands) and operands[end].span.line == operator.span.line:
+        operand = operands[end]
+        if isinstance(operand, Symbol) and operand.name in parameters:
+            break
+        end += 1
+    return operands[i:end]
+
+
+def _open_operator(operator: Expr | Named, astray: Sequence[Expr | Named]) -> Diagnostic:
+    name = operator.span.text
+    texts = [operand.span.text for operand in astray]
+    inner = "…" if any("\n" in text for text in texts) else ", ".join(texts)
+    return Diagnostic(
+        "expected-argument-name",
+        f"this stands beside `{name}`, not in it: the rest of the line belongs to the rule",
+        astray[0].span.to(astray[-1].span),
+        help=f"write `{name}({inner})`, or the operands of `{name}` one a line, deeper than it",
+    )
 
 
 def _nameless(operand: Expr | Named, title: str, parameters: Collection[str]) -> Diagnostic:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from pathlib import Path
 
+from azee.lang.places import declare_places, utterances
 from azee.lang.resolve import Resolving
 from azee.lang.rule import Rule, is_azop
 from azee.lang.scope import Namespace, Scope
@@ -188,6 +189,7 @@ class Librarian:
         library.diagnostics += define(
             library.namespace, definitions(parsed.file), scope, self._resolving
         )
+        library.diagnostics += declare_places(parsed.file, scope, self._resolving)
 
     def _missing(self, use: Use, folder: Path | None) -> Diagnostic:
         name = use.library.name
@@ -260,7 +262,7 @@ def _unreadable(folder: Path, problem: OSError) -> Diagnostic:
 
 
 def _has_utterances(file: File) -> bool:
-    return any(isinstance(item, Utterance) for item in file.items)
+    return any(True for _ in utterances(file))
 
 
 @lru_cache(maxsize=256)

@@ -72,7 +72,7 @@ def _operands(operands: Sequence[Operand]) -> Iterator[str]:
 
 def _dependent(native: Native) -> str:
     """Describe the result of an operator if it depends on the operands."""
-    if native.name in ("def", "use"):
+    if native.name in ("def", "use", "places"):
         return ""
     if native.name in ("mirror", "with-dominant", "relocate"):
         return f"{Kind.SCORE.value} or {Kind.CONSTRAINTS.value}, like its content"

@@ -9,6 +9,7 @@ from functools import cached_property
 from pathlib import Path
 
 from azee.lang.audit import audit
+from azee.lang.discourse import unintroduced_places
 from azee.lang.fault import Fault
 from azee.lang.library import (
     CORE,
@@ -20,6 +21,7 @@ from azee.lang.library import (
     shipped_library,
 )
 from azee.lang.machine import DEFAULT_LIMITS, Limits, Machine
+from azee.lang.places import declare_places, utterances
 from azee.lang.resolve import Resolving
 from azee.lang.rule import Rule
 from azee.lang.scope import Namespace, Scope
@@ -104,6 +106,7 @@ class Program:
                 _ = rule.procedure
         items = [item for item in self._items() if item not in sound]
         found = [d for item in items for d in self.problems(item, dominant)]
+        found += unintroduced_places(self.file, self.scope, self.resolving)
         return _tidy((*self.found, *found, *self._rule_diagnostics()), self.source)
 
     def problems(self, item: Utterance, dominant: Side = Side.RIGHT) -> tuple[Diagnostic, ...]:
@@ -174,7 +177,7 @@ class Program:
 
     def _items(self) -> Iterator[Utterance]:
         if own_name(self.file) is None:
-            yield from (item for item in self.file.items if isinstance(item, Utterance))
+            yield from utterances(self.file)
 
     def _own_rules(self) -> Iterator[Rule]:
         for namespace in (self.scope.own, *(x.namespace for x in self.librarian.libraries)):
@@ -256,8 +259,9 @@ def load(
     beside = Librarian(tuple(libraries), resolving, core, read)
     if path is not None:
         scope.siblings = beside.siblings(parsed.file, path)
-    duplicates = define(namespace, definitions(parsed.file), scope, resolving)
-    found = (*parsed.diagnostics, *problems, *duplicates)
+    duplicates = list(define(namespace, definitions(parsed.file), scope, resolving))
+    misplaced = declare_places(parsed.file, scope, resolving)
+    found = (*parsed.diagnostics, *problems, *duplicates, *misplaced)
     in_libraries = tuple(d for library in librarian.libraries for d in library.diagnostics)
     return Program(
         source,

@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
-from azee.score.score import Group, Key, Score
+from azee.score.score import SIDE_CHANNELS, Group, Hold, Key, Score
 from azee_grammar import vocabulary
 from azee_solver.constraint import (
     Constraint,
@@ -84,7 +84,15 @@ class Change:
             for block in score.blocks:
                 blocks.append(replace(block, score=self.score(block.score)))
             return replace(score, blocks=tuple(blocks))
+        if isinstance(score, Hold):
+            return replace(score, channels=tuple(self._channel(name) for name in score.channels))
         return score
+
+    def _channel(self, name: str) -> str:
+        if name not in SIDE_CHANNELS:
+            return name
+        side = self.side(SIDE_CHANNELS[name])
+        return next(other for other, found in SIDE_CHANNELS.items() if found is side)
 
     def constraint(self, constraint: Constraint) -> Constraint:
         """Return the constraint with all its parts changed."""

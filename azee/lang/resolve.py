@@ -152,10 +152,13 @@ class Resolver:
     def _parameter(self, expr: Parameter, visible: Visible) -> Code:
         if expr.name in visible:
             return Variable(expr.span, expr.name)
+        place = self.scope.places.get(expr.name)
+        if place is not None:
+            return Constant(expr.span, place.value) if place.value else Broken(expr.span)
         constant = CONSTANTS.get(expr.name)
         if constant is not None:
             return Constant(expr.span, constant.value)
-        hint = did_you_mean(expr.name, (*sorted(visible), *CONSTANTS), "^")
+        hint = did_you_mean(expr.name, (*sorted(visible), *self.scope.places, *CONSTANTS), "^")
         if hint is None and expr.name in NATIVES:
             hint = f"`{expr.name}` is an operator: write it without `^`"
         if hint is None and self._defined(expr.name):

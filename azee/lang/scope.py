@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from azee.lang.places import NamedPlace
     from azee.lang.rule import Rule
 
 
@@ -36,6 +37,7 @@ class Scope:
     `libraries` is filled after its rules are made, since libraries may use each other. `siblings`
     are the rules of the library that the text is a file of, if it is read alone. `dropped` is the
     default library where the text uses others instead. `shipped` finds a library that ships.
+    `places` are the points that the text names.
     """
 
     own: Namespace
@@ -44,6 +46,7 @@ class Scope:
     siblings: Namespace | None = None
     dropped: Namespace | None = None
     shipped: Callable[[str], Namespace | None] = lambda name: None
+    places: dict[str, NamedPlace] = field(default_factory=dict)
 
     def find(self, name: str) -> Rule | None:
         """Return the rule that a name means here.

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 from azee.assist.knowledge import Knowledge
+from azee.lang.places import declares_places
 from azee.lang.program import Program, load
 from azee.lsp.document import Document
 from azee.lsp.occurrences import Occurrence, occurrences
@@ -31,7 +32,7 @@ class Sound:
     """Items without mistakes, with everything that this result depends on."""
 
     rules: Mapping[str, tuple[Definition, ...]] = field(default_factory=dict)
-    uses: tuple[Use, ...] = ()
+    uses: tuple[Item, ...] = ()
     read: tuple[Source, ...] = ()
     items: frozenset[Item] = frozenset()
 
@@ -81,7 +82,11 @@ class Analysis:
             item
             for item in self.program.file.items
             if item in known
-            or (isinstance(item, Utterance) and not self.program.problems(item))
+            or (
+                isinstance(item, Utterance)
+                and not declares_places(item)
+                and not self.program.problems(item)
+            )
             or (item in rules and not rules[item].diagnostics)
         }
         if len(spoiled) > 1:  # a mistake in a library may show anywhere
@@ -89,8 +94,10 @@ class Analysis:
         return diagnostics, Sound(self._rules, self._uses, self.read, frozenset(sound))
 
     @property
-    def _uses(self) -> tuple[Use, ...]:
-        return tuple(item for item in self.program.file.items if isinstance(item, Use))
+    def _uses(self) -> tuple[Item, ...]:
+        """The items on which all others may depend: libraries and places."""
+        items = self.program.file.items
+        return tuple(item for item in items if isinstance(item, Use) or declares_places(item))
 
     @cached_property
     def _rules(self) -> Mapping[str, tuple[Definition, ...]]:

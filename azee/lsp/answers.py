@@ -12,6 +12,7 @@ from azee.assist.hover import hover
 from azee.assist.pieces import Category, pieces
 from azee.assist.signature import signature
 from azee.lang.arguments import flattened
+from azee.lang.places import declares_places
 from azee.lang.sync_shape import ShapeReader
 from azee.lsp.analysis import Analysis
 from azee.lsp.document import Document
@@ -119,7 +120,7 @@ def outline(analysis: Analysis) -> list[types.DocumentSymbol]:
                     children=list(_blocks(document, item.body)),
                 )
             )
-        elif isinstance(item, Utterance):
+        elif isinstance(item, Utterance) and not declares_places(item):
             found.append(
                 types.DocumentSymbol(
                     name=" ".join(item.expr.span.text.split())[:60],

@@ -36,7 +36,7 @@ class What(Enum):
 
     RULE = "rule"
     LOCAL = "name"
-    """A parameter of a rule or `azop`, or the name of a `let`."""
+    """A parameter of a rule or `azop`, the name of a `let`, or a place of the text."""
     BLOCK = "block"
 
 
@@ -77,14 +77,14 @@ class _Walk:
     scope: Scope
     found: list[Occurrence] = field(default_factory=list)
 
-    def item(self, node: Definition | Utterance) -> None:
+    def item(self, node: Definition | Utterance, places: Mapping[str, Target]) -> None:
         if isinstance(node, Utterance):
-            self.expr(node.expr, {})
+            self.expr(node.expr, places)
             return
         target = Target(What.RULE, node.name, node.name_span)
         self.found.append(Occurrence(node.name_span, target, declares=True))
         if node.body is not None:
-            self.expr(node.body, {})
+            self.expr(node.body, places)
 
     def expr(self, node: Expr | Named, visible: Mapping[str, Target]) -> None:
         if isinstance(node, Parameter) and node.name in visible:
@@ -156,6 +156,12 @@ class _Walk:
                     span = Span(ref.span.source, start, start + len(written[1]))
                     self.found.append(Occurrence(span, target, "'"))
 
+    def place(self, name: str, span: Span) -> Target:
+        """Add the place in the text that names a place of the discourse."""
+        target = Target(What.LOCAL, name, _behind(span, 1))
+        self.found.append(Occurrence(target.place, target, "'", declares=True))
+        return target
+
     def _declared(self, name: Symbol, what: What) -> Target:
         place = _behind(name.span, 1)
         target = Target(what, name.name, place)
@@ -166,9 +172,10 @@ class _Walk:
 def occurrences(file: File, scope: Scope) -> Sequence[Occurrence]:
     """Return all names of rules, parameters, locals and blocks that have a meaning, in order."""
     walk = _Walk(scope)
+    places = {name: walk.place(name, found.name_span) for name, found in scope.places.items()}
     for item in file.items:
         if isinstance(item, Definition | Utterance):
-            walk.item(item)
+            walk.item(item, places)
     return sorted(walk.found, key=lambda found: found.span.start)
 
 

@@ -14,6 +14,7 @@ from azee_solver.constraint import Transpath
 
 Array = NDArray[np.float64]
 
+CHEST = "back_2"
 PHASES = 65
 """Instants at which two performances of a way are compared."""
 LEAST_WAY_M = 0.02
@@ -59,9 +60,13 @@ def repetitions(k: Kinematics, spans: Sequence[TaskSpan]) -> tuple[Repetition, .
 
 
 def _way(k: Kinematics, side: str, span: TaskSpan) -> Array:
-    """Wrist at evenly spaced times of a span, (PHASES, 3), straight between frames."""
+    """Wrist against the chest at evenly spaced times of a span, (PHASES, 3).
+
+    A trunk that sways takes both arms and their targets along: no other way for that.
+    """
     times = np.linspace(span.start_s, span.end_s, PHASES)
-    wrist = k.wrist(side)
+    chest = k.rotation(CHEST)
+    wrist = np.einsum("tji,tj->ti", chest, k.wrist(side) - k.scale * k.joint(CHEST))
     return np.stack([np.interp(times, k.times_s, wrist[:, i]) for i in range(3)], axis=1)
 
 

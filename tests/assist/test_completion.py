@@ -7,6 +7,8 @@ from cursor import at_cursor
 
 from azee.assist.completion import completions
 from azee.assist.knowledge import Knowledge
+from azee.lang.program import load
+from azee_grammar.source import Source
 
 KNOWLEDGE = Knowledge.shipped()
 
@@ -52,6 +54,15 @@ def offered(marked: str) -> list[str]:
 )
 def test_the_likeliest_name_comes_first(text: str, likely: str) -> None:
     assert offered(text)[0] == likely
+
+
+def test_the_places_of_a_text_are_offered() -> None:
+    program = load(Source("", "places 'ici ^Rssp\n"))
+    text, offset = at_cursor("key 1 (lookat ^ic|")
+    found = completions(text, offset, Knowledge(program.scope))
+    assert [(c.insert, c.described.meaning) for c in found][:1] == [
+        ("^ici", "a place of this text")
+    ]
 
 
 @pytest.mark.parametrize(

@@ -70,6 +70,21 @@ ARGUMENTS = (
     _mistake(":info-about 'topic 'info :bien", "missing-value 1:13", words="`'topic`"),
     _mistake(":info-about 'topic :bien 'info", "missing-value 1:26", words="`'info`"),
     _mistake(":arbre ^Mssp", "expected-argument-name 1:8", hint="`'loc`"),
+    _mistake(
+        ":tens-units\n    'tens list :bien :chat\n    'units .nb-5",
+        "expected-argument-name 2:16",
+        hint="list(:bien, :chat)",
+    ),
+    _mistake(
+        ":tens-units 'tens list :bien 'b 'units .nb-5",
+        "expected-argument-name 1:24",
+        hint="list(:bien, 'b)",
+    ),
+    _mistake(
+        ":arbre\n    'loc list :bien :arbre\n        'loc ^Mssp",
+        "expected-argument-name 2:15",
+        hint="`list(…)`",
+    ),
     _mistake("blank", "missing-argument 1:1", hint="`blank DURATION`"),
     _mistake("key 1 (look)", "missing-argument 1:8", words="lacks its vector"),
     _mistake("blank 1 2", "too-many-arguments 1:9", words="takes 1 operand"),

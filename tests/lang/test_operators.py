@@ -74,7 +74,7 @@ def test_the_example_of_the_manual_evaluates_to_the_declared_kind(name: str) -> 
 
 
 def test_every_operator_but_the_items_of_a_file_has_an_example() -> None:
-    assert [n.name for n in NATIVES.values() if not n.example] == ["def", "use"]
+    assert [n.name for n in NATIVES.values() if not n.example] == ["def", "use", "places"]
 
 
 def test_every_operator_is_in_an_expression_of_these_tests() -> None:
@@ -277,6 +277,26 @@ def test_lists(expression: str, expected: list[object]) -> None:
         "def plus\n    azop 'x 'nodefault 'y 'nodefault add(^x, ^y)\n"
     )
     assert _numbers(value(expression, definitions)) == expected
+
+
+def test_the_elements_of_a_list_stand_deeper_than_its_line() -> None:
+    definitions = "def all\n    azop 'items 'nodefault 'gap .2 seq(^items, 'gap = ^gap)\n"
+    in_lines = """:all
+    'items list
+        :info-about
+            'topic :all
+                'items list
+                    :bien
+                    :arbre
+                        'loc ^Lssp
+            'info :chat
+        :mignon
+    'gap .1
+"""
+    inner = "info-about(all(list(:bien, arbre(^Lssp))), :chat)"
+    assert content(in_lines, definitions) == content(
+        f"all(list({inner}, :mignon), .1)", definitions
+    )
 
 
 def test_fold_goes_from_the_left() -> None:

@@ -229,28 +229,30 @@ def _placed(score: Score, measure: Evaluator, rig: Rig) -> NDArray[np.float64]:
     return np.array([measure.point(point, frames, 0.3) for point in points])
 
 
-@given(
-    st.lists(st.sampled_from(POINTS), min_size=2, max_size=5),
-    st.integers(0, 16).map(lambda n: n / 8),
-    st.integers(0, 16).map(lambda n: n / 8),
-)
-def test_sizes_multiply(points: list[Point], first: float, second: float) -> None:
+FREE = tuple(p for p in POINTS if not isinstance(p, SitePoint | JointPoint | Moving))
+sizes = st.integers(0, 16).map(lambda n: n / 8)
+
+
+@given(st.lists(st.sampled_from(FREE), min_size=2, max_size=5, unique=True), sizes, sizes)
+def test_sizes_multiply_and_the_middle_stays(
+    points: list[Point], first: float, second: float
+) -> None:
     rig = _signer()
     measure = Evaluator(rig, Side.RIGHT)
     score = _keyed(*((Place(TIP, point),) for point in points))
     once = Resizing.of(score, first).score(score)
     twice = Resizing.of(once, second).score(once)
     whole = Resizing.of(score, first * second).score(score)
-    found, expected = (_placed(s, measure, rig) for s in (twice, whole))
-    if all(isinstance(p, SitePoint | JointPoint) for p in points):
-        assert twice == whole == score
-    if not any(isinstance(p, SitePoint | JointPoint | Moving) for p in points):
-        np.testing.assert_allclose(found, expected, atol=1e-9)
-        distinct = _placed(_keyed(*((Place(TIP, p),) for p in dict.fromkeys(points))), measure, rig)
-        changed = dict(zip(points, found, strict=True))
-        np.testing.assert_allclose(
-            np.mean([*changed.values()], axis=0), distinct.mean(axis=0), atol=1e-9
-        )
+    plain, found, expected = (_placed(s, measure, rig) for s in (score, twice, whole))
+    np.testing.assert_allclose(found, expected, atol=1e-9)
+    middle = plain.mean(axis=0)
+    np.testing.assert_allclose(found - middle, first * second * (plain - middle), atol=1e-9)
+
+
+@given(st.lists(st.sampled_from((CHIN, SitePoint(OTHER_TIP))), min_size=1, max_size=5), sizes)
+def test_what_is_on_the_body_has_no_size(points: list[Point], factor: float) -> None:
+    score = _keyed(*((Place(TIP, point),) for point in points))
+    assert Resizing.of(score, factor).score(score) == score
 
 
 def _signer() -> Rig:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from azee.lang.reflection import MIRROR, WithDominant
-from azee.score.score import Group, Key, Score, leaves
+from azee.score.score import Group, Hold, Key, Score, leaves
 from azee_rig.rig import Rig
 from azee_solver.constraint import Constraint, Morph, Orient, Place, Rotate
 from azee_solver.evaluate import Evaluator
@@ -148,3 +148,18 @@ def test_sides_change_as_groups_do(side: Side, strong: Side) -> None:
     if side in (Side.LEFT, Side.RIGHT):
         assert change.side(side) is side
     assert change.side(side.opposite) is change.side(side).opposite
+
+
+@pytest.mark.parametrize(
+    ("change", "channels"),
+    [
+        ("mirror", ("weak", "strong", "right", "hands")),
+        ("with-dominant L", ("left", "right", "left", "hands")),
+        ("with-dominant s", ("strong", "weak", "left", "hands")),
+    ],
+)
+def test_a_hold_of_one_hand_changes_with_it(change: str, channels: tuple[str, ...]) -> None:
+    held = "hold :bien .4 'only (list 'strong 'weak 'left 'hands)"
+    hold = group(f"{change} ({held})").block("HOLD").score
+    assert isinstance(hold, Hold)
+    assert hold.channels == channels

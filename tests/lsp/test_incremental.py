@@ -24,6 +24,11 @@ ITEMS = (
     'apply rule("a")\n',
     'def c\n    if has-rule(concat("a")) :chat nobody()\n',
     ":c\n",
+    "places 'p ^Rssp\n",
+    "places 'p @CH 'q ^p\n",
+    "key .1 (lookat ^p)\n",
+    "def a\n    'refers \"x\"\n    azop 'x 'nodefault :chat\n",
+    ":a 'x ^Rssp\n",
     "seq(:a, .b)\n",
     "use 'core\n",
 )

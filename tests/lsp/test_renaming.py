@@ -48,7 +48,28 @@ def s
             'start/end ^ref 'SIG:end
 :s
 """
+PLACES = """\
+places 'ici ^Rssp 'là vtranslate(^ici, ^up)
+def f
+    azop
+        'ici
+        ^ici
+        key 1 (lookat ^ici)
+key 1 (lookat ^ici)
+"""
 NAMED = [
+    (
+        PLACES,
+        "places 'ici",
+        8,
+        "here",
+        {
+            "places 'ici": "places 'here",
+            "vtranslate(^ici": "vtranslate(^here",
+            "'ici\n        ^ici": "'ici\n        ^here",
+            "\nkey 1 (lookat ^ici)": "\nkey 1 (lookat ^here)",
+        },
+    ),
     (
         RULE,
         "def été",

@@ -86,7 +86,7 @@ def test_a_hold_keeps_what_lasted_until_the_end_of_its_sibling() -> None:
     held = [r for r in timeline.requirements if r.path == ("HOLD",)]
     assert [r.constraint for r in held] == [TIP, SMILE]
     assert {r.interval for r in held} == {Interval(F(2), F(9, 4))}
-    assert {r.held_channels for r in held} == {("hands", "face")}
+    assert {r.held_channels for r in held} == {(("hands", "face"),)}
 
 
 def test_a_hold_inside_a_nested_group_finds_its_sibling_there() -> None:
@@ -108,7 +108,7 @@ def test_a_hold_of_a_hold_keeps_the_channels_of_both() -> None:
     last = timeline.requirements[-1]
     assert last.path == ("C",)
     assert last.constraint == TIP
-    assert last.held_channels == ("face",)
+    assert last.held_channels == (("hands", "face"), ("face", "eyes"))
 
 
 def test_a_hold_leaves_movements_out_and_keeps_a_moving_point_at_its_end() -> None:

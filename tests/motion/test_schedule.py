@@ -21,11 +21,11 @@ from azee.motion.keys.transpath import (
 from azee.motion.overlay.trill import oscillation
 from azee.motion.tasks.contradiction import contradict
 from azee.motion.tasks.flatten import flatten
-from azee.motion.tasks.limbs import Limbs, channel_of_constraint
+from azee.motion.tasks.limbs import Limbs, channels_of_constraint
 from azee.motion.tasks.schedule import TaskSchedule, bind
 from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
-from azee.score.score import Block, Group, Hold, Key
+from azee.score.score import CHANNELS, Block, Group, Hold, Key
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver.constraint import (
@@ -148,26 +148,36 @@ def test_every_constraint_is_a_posture_s_or_a_movement_s(constraint: Constraint)
 
 
 @pytest.mark.parametrize(
-    ("constraint", "channel"),
+    ("constraint", "channels"),
     [
-        (Place(TIP, MIDDLE), "hands"),
-        (Morph("index_bend", S, 1.0), "hands"),
-        (Orient(BoneAxis.DIR, Bone("clav", W), Relation.ALONG, UP), "hands"),
-        (Rotate(Bone("head"), UP, 0.1), "head"),
-        (Look(FORWARD), "eyes"),
-        (Orient(BoneAxis.DIR, Bone("back_2"), Relation.ALONG, UP), "trunk"),
-        (Morph("spine_extended", None, 0.3), "trunk"),
-        (Morph("AU1", None, 1.0), "face"),
+        (Place(TIP, MIDDLE), ("hands", "strong", "right")),
+        (Morph("index_bend", S, 1.0), ("hands", "strong", "right")),
+        (Orient(BoneAxis.DIR, Bone("clav", W), Relation.ALONG, UP), ("hands", "weak", "left")),
+        (Rotate(Bone("head"), UP, 0.1), ("head",)),
+        (Look(FORWARD), ("eyes",)),
+        (Orient(BoneAxis.DIR, Bone("back_2"), Relation.ALONG, UP), ("trunk",)),
+        (Morph("spine_extended", None, 0.3), ("trunk",)),
+        (Morph("AU1", None, 1.0), ("face",)),
     ],
 )
-def test_a_hold_keeps_a_constraint_if_it_names_its_channel(
-    constraint: Constraint, channel: str
+def test_a_hold_keeps_a_constraint_if_it_names_a_channel_of_it(
+    constraint: Constraint, channels: tuple[str, ...]
 ) -> None:
-    assert channel_of_constraint(constraint, evaluator().binding) == channel
-    for channels, kept in (((channel,), 1), (("nothing",), 0)):
-        hold = Block("H", Interval(F(1), F(2)), Hold(F(1), block="A", channels=channels))
+    assert channels_of_constraint(constraint, evaluator().binding) == {*channels}
+    for channel in (*CHANNELS, "nothing"):
+        hold = Block("H", Interval(F(1), F(2)), Hold(F(1), block="A", channels=(channel,)))
         held = schedule(block("A", "0", "1", constraint), hold).all[1:]
-        assert len(held) == kept
+        assert len(held) == (channel in channels)
+
+
+def test_a_hold_of_a_hold_keeps_what_both_keep() -> None:
+    for outer, kept in (("strong", 1), ("hands", 1), ("weak", 0), ("face", 0)):
+        blocks = [
+            Block("H", Interval(F(1), F(2)), Hold(F(1), block="A", channels=("hands",))),
+            Block("I", Interval(F(2), F(3)), Hold(F(1), block="H", channels=(outer,))),
+        ]
+        found = schedule(block("A", "0", "1", Place(TIP, MIDDLE)), *blocks).all
+        assert sum(task.interval.start == 2 for task in found) == kept
 
 
 def test_what_names_something_that_the_rig_lacks_is_left_out() -> None:

@@ -102,3 +102,11 @@ def test_head_movements_of_nested_rules_keep_their_amplitudes(outer: str, inner:
             assert result.residual is not None
             asked = math.radians(float(result.target.split()[-1]))
             assert result.residual <= (1.0 - KEPT_SHARE) * abs(asked) + 1e-3, (text, result.path)
+
+
+def test_a_hand_that_goes_to_and_fro_takes_another_way_each_time() -> None:
+    """A way on a path in space is all but given: what differs is when the hand is where."""
+    text = (ROOT / "benchmarks" / "texts" / "to-and-fro.azee").read_text(encoding="utf-8")
+    found = azee.compile(text, fps=60.0).report.likeness.repetitions
+    assert len(found) >= 4
+    assert all(2.0 <= r.difference_percent <= 8.0 for r in found)

@@ -11,6 +11,7 @@ from azee.lang.code import Broken, Code
 from azee.lang.control import Closure, If, Junction, Let, not_a_boolean
 from azee.lang.form import Resolve, exactly
 from azee.lang.native import Group, Native, Occurrence, Operand
+from azee.lang.places import PATTERN as PLACES
 from azee.lang.resolution import Steps, Visible
 from azee.lang.values import Kind, TextValue, Value
 from azee_grammar.diagnostic import Diagnostic
@@ -114,7 +115,8 @@ def _misplaced(name: str) -> Resolve:
     ) -> Steps[Code]:
         yield from resolver.all(operands, visible)
         message = f"`{name}` stands at the beginning of a line of the file, not in an expression"
-        hint = "local names are given with `let 'name value body`" if name == "def" else None
+        local = name in ("def", "places")
+        hint = "local names are given with `let 'name value body`" if local else None
         return resolver.broken(
             expr.span, Diagnostic("unknown-operator", message, expr.head.span, help=hint)
         )
@@ -218,6 +220,14 @@ OPERATORS = (
         "At the beginning of a line: the rules of a library are in scope.",
         "use 'LIBRARY",
         _misplaced("use"),
+        "",
+    ),
+    _form(
+        "places",
+        "At the beginning of a line: names for points in space, which all expressions of the file "
+        "can use as `^name`. A point may be described by the names before it.",
+        PLACES,
+        _misplaced("places"),
         "",
     ),
     _form(

@@ -41,7 +41,7 @@ Array = NDArray[np.float64]
 
 PASSES = 4
 """How often the movement is searched for collisions: an offset may cause another one."""
-SAMPLE_S = 1 / 50
+SAMPLE_S = 1 / 30
 """Time between the postures in which collisions are searched."""
 SAMPLES_AT_ONCE = 240
 DEEP_M, DEEP_FINGERS_M = 0.005, 0.003
@@ -66,6 +66,8 @@ ALLOWED_SHORTFALL = 0.25
 WORTHWHILE = 0.7
 """An offset is used if it leaves at most this share of the largest shortfall."""
 MAX_ITERATIONS, MAX_STEP_RAD = 40, 0.15
+LEAST_GAIN = 0.05
+"""A step that lowers the sum by less than this share is the last one."""
 DAMPING = 0.03
 OFFSET_WEIGHT_M = 0.015
 """An offset of one radian costs as much as this overlap in one sample."""
@@ -90,9 +92,10 @@ class CollisionAvoidance:
     def avoid_collisions(self, movement: Movement) -> Movement:
         """Return a movement with via points where limbs that are free could avoid a collision."""
         unsuccessful: set[_FreeLimbs] = set()
+        times = np.arange(movement.start_s - SAMPLE_S, movement.end_s + SAMPLE_S, SAMPLE_S)
         for _ in range(PASSES):
-            collisions = _merged(self._collisions(movement))
-            added = []
+            collisions = _merged(self._collisions(movement, times))
+            added: list[ViaPoint] = []
             for free, (first, last) in collisions.items():
                 if free in unsuccessful:
                     continue
@@ -103,6 +106,8 @@ class CollisionAvoidance:
             if not added:
                 break
             movement = replace(movement, via_points=(*movement.via_points, *added))
+            changed = [(v.start_s <= times) & (times <= v.end_s) for v in added]
+            times = times[np.any(changed, axis=0)]
         return movement
 
     def intended_touches(self, first_s: float, last_s: float) -> list[Constraint]:
@@ -113,9 +118,10 @@ class CollisionAvoidance:
         )
         return [t.constraint for t in self.schedule.in_force.overlapping(span)]
 
-    def _collisions(self, movement: Movement) -> dict[_FreeLimbs, tuple[float, float]]:
-        """Return the limbs that could avoid collisions, and from when to when these last."""
-        times = np.arange(movement.start_s - SAMPLE_S, movement.end_s + SAMPLE_S, SAMPLE_S)
+    def _collisions(
+        self, movement: Movement, times: Array
+    ) -> dict[_FreeLimbs, tuple[float, float]]:
+        """Return the limbs that could avoid collisions at some times, and how long these last."""
         out: dict[_FreeLimbs, tuple[float, float]] = {}
         for start in range(0, len(times), SAMPLES_AT_ONCE):
             part = times[start : start + SAMPLES_AT_ONCE]
@@ -248,7 +254,7 @@ class _OffsetSearch:
         enough = ALLOWED_SHORTFALL * float(np.min(clearance[pairs]))
         c, damping = np.zeros(len(self.members)), DAMPING
         error, J = self._errors(c, pairs, allowed)
-        error_before = float(np.max(error))
+        error_before, cost = float(np.max(error)), float(np.sum(error**2))
         for _ in range(MAX_ITERATIONS):
             if np.max(error) <= enough:
                 break
@@ -257,10 +263,14 @@ class _OffsetSearch:
             step = -np.linalg.solve(lhs, rhs + OFFSET_WEIGHT_M**2 * c)
             step *= min(1.0, MAX_STEP_RAD / max(1e-9, float(np.max(np.abs(step)))))
             new_error, new_J = self._errors(c + step, pairs, allowed)
-            if np.sum(new_error**2) < np.sum(error**2):
-                c, error, J, damping = c + step, new_error, new_J, damping / 3
+            new_cost = float(np.sum(new_error**2) + OFFSET_WEIGHT_M**2 * np.sum((c + step) ** 2))
+            gain = 1.0 - new_cost / cost
+            if gain > 0.0:
+                c, error, J, cost, damping = c + step, new_error, new_J, new_cost, damping / 3
             else:
                 damping *= 8
+            if 0.0 < gain < LEAST_GAIN:
+                break
         return c if float(np.max(error)) < WORTHWHILE * error_before else None
 
     def _allowed_depths(self, depths: Array, clearance: Array) -> Array:

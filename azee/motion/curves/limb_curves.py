@@ -157,20 +157,47 @@ class LimbCurve:
             return out
         first, last = float(times_s[0]), float(times_s[-1])
         for run in self.runs[bisect_left(self._run_ends, first) :]:
-            if run[0].time_s > last:
+            if run.start_s > last:
                 break
-            _sample_run(run, self.onsets, times_s, out)
+            run.sample(times_s, out)
         return out
 
     @cached_property
-    def runs(self) -> tuple[tuple[LimbKey, ...], ...]:
-        """The keys from each stop to the next, both included."""
+    def runs(self) -> tuple[_Run, ...]:
+        """The movements from each stop to the next."""
         stops = [i for i, key in enumerate(self.keys) if not key.passing]
-        return tuple(self.keys[a : b + 1] for a, b in pairwise(stops))
+        return tuple(_Run(self.keys[a : b + 1], self.onsets) for a, b in pairwise(stops))
 
     @cached_property
     def _run_ends(self) -> list[float]:
-        return [run[-1].time_s for run in self.runs]
+        return [run.end_s for run in self.runs]
+
+
+class _Run:
+    """A movement of a limb through its keys, from one stop to the next."""
+
+    def __init__(self, keys: Sequence[LimbKey], onsets: Onsets | None) -> None:
+        self.start_s, self.end_s = keys[0].time_s, keys[-1].time_s
+        self._knots = np.array([key.time_s for key in keys])
+        self._values = np.stack([key.values for key in keys])
+        self._still = bool(np.all(self._values == self._values[0]))
+        self._onsets = onsets
+
+    def sample(self, times_s: Array, out: Array) -> None:
+        """Fill in the rows of the times inside, both ends included."""
+        first = int(np.searchsorted(times_s, self.start_s, side="left"))
+        last = int(np.searchsorted(times_s, self.end_s, side="right"))
+        if first == last:
+            return
+        rows, values = slice(first, last), self._values
+        if self._still or self.end_s <= self.start_s:
+            out[rows] = values[-1]
+        elif len(values) == 2 and self._onsets is not None:
+            a, b = self._onsets.within(values[0], values[1], self.end_s - self.start_s)
+            share = minimum_jerk((times_s[rows, None] - self.start_s - a) / (b - a))
+            out[rows] = values[0] + (values[1] - values[0]) * share
+        else:
+            out[rows] = curve_through(self._knots, values, times_s[rows])
 
 
 def limb_curve(keys: Sequence[LimbKey], neutral: Array, onsets: Onsets | None = None) -> LimbCurve:
@@ -203,27 +230,3 @@ def _stopping_at_first_and_last(keys: list[LimbKey]) -> list[LimbKey]:
         outermost = i in (0, 1, len(keys) - 2, len(keys) - 1)
         out.append(replace(key, passing=key.passing and not outermost))
     return out
-
-
-def _sample_run(keys: Sequence[LimbKey], onsets: Onsets | None, times_s: Array, out: Array) -> None:
-    """Fill in the rows of the times from one stop to the next."""
-    start, end = keys[0].time_s, keys[-1].time_s
-    first = int(np.searchsorted(times_s, start, side="left"))
-    last = int(np.searchsorted(times_s, end, side="right"))
-    if first == last:
-        return
-    rows = slice(first, last)
-    if end <= start:
-        out[rows] = keys[-1].values
-        return
-    values = np.stack([key.values for key in keys])
-    if len(keys) == 2 and onsets is not None:
-        a, b = onsets.within(values[0], values[1], end - start)
-        share = minimum_jerk((times_s[rows, None] - start - a) / (b - a))
-        out[rows] = values[0] + (values[1] - values[0]) * share
-        return
-    if np.all(values == values[0]):
-        out[rows] = values[0]
-        return
-    knots = np.array([key.time_s for key in keys])
-    out[rows] = curve_through(knots, values, times_s[rows])

@@ -23,6 +23,7 @@ from azee.motion.tasks.limbs import Limbs, channel_of_limb, is_finger, place_in_
 from azee.score.interval import Interval
 from azee_rig.coordinates import Coordinates
 from azee_rig.rig import Rig
+from azee_solver import kinematics
 
 Array = NDArray[np.float64]
 
@@ -154,7 +155,7 @@ class Interpolation:
         for start in range(0, len(postures), AT_ONCE):
             some = postures[start : start + AT_ONCE]
             q = np.stack([self.rest + shares * (p.coordinates - self.rest) for p in some])
-            at = self.rig.chain.frames(q).positions[..., [*arms.values()], :]
+            at = kinematics.frames(self.rig.chain, q).positions[..., [*arms.values()], :]
             parts = np.linalg.norm(np.diff(at, axis=1), axis=-1)
             for posture, longest in zip(some, WAY_PARTS * parts.max(axis=1), strict=True):
                 out[posture] = dict(zip(arms, longest.tolist(), strict=True))

@@ -22,6 +22,7 @@ from azee.motion.keys.transpath import (
 )
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.key_posture import KeyPosture, Origin
+from azee_solver import kinematics
 
 CLOSEST_S = 0.003
 """Keys nearer to another than this would only make the movement shake."""
@@ -85,7 +86,9 @@ class PathKeys:
         samples: set[Fraction] = set()
         for path in self.in_between.monitor.paths.values():
             q = joined.sample(np.array([float(path.motion.start)]))[0]
-            samples.update(path_sample_times(path, evaluator.rig.chain.frames(q), evaluator))
+            samples.update(
+                path_sample_times(path, kinematics.frames(evaluator.rig.chain, q), evaluator)
+            )
         self._solve(self._on_frames(samples), joined, Origin.PATH)
 
     def sample_moving_targets(self) -> None:
@@ -98,7 +101,9 @@ class PathKeys:
         samples: set[Fraction] = set()
         for task in tasks:
             q = joined.sample(np.array([float(task.requirement.motion.start)]))[0]
-            samples.update(target_sample_times(task, evaluator.rig.chain.frames(q), evaluator))
+            samples.update(
+                target_sample_times(task, kinematics.frames(evaluator.rig.chain, q), evaluator)
+            )
         self._solve(self._on_frames(samples), joined, Origin.PATH)
 
     def _in_control(self, time: Fraction) -> list[PathMotion]:

@@ -17,6 +17,7 @@ from azee.motion.keys.transpath import AnchoredPath
 from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import EarlyEnd, TimedTask
 from azee_rig.chain import Frames
+from azee_solver import kinematics
 from azee_solver.constraint import Constraint, Morph, Place, Transpath
 from azee_solver.evaluate import Evaluator, LengthOrAngle
 
@@ -54,7 +55,7 @@ def sample_movement(
     """Sample a movement, with forward kinematics of all instants at once."""
     exact = tuple(times)
     q = movement.sample(np.array([float(t) for t in exact]))
-    return MovementSamples(exact, q, evaluator.rig.chain.frames(q))
+    return MovementSamples(exact, q, kinematics.frames(evaluator.rig.chain, q))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

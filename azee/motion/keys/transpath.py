@@ -26,6 +26,7 @@ from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
+from azee_solver import kinematics
 from azee_solver.constraint import LookAt, Place, Transpath
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Bone, Point, Side, WorldPoint, depends_on
@@ -126,15 +127,23 @@ class AnchoredPath:
     start: PathEnd
     end: PathEnd
 
+    @property
+    def reads_body(self) -> bool:
+        """Whether the path hangs on the posture."""
+        return bool(self.motion.task.reads)
+
     def targets(self, times: Sequence[Fraction], frames: Frames, evaluator: Evaluator) -> Array:
         """Return where the site should be at times, (T, 3); frames (T, …) of the body then."""
         progress = np.array([self.motion.progress(t) for t in times])
-        path, reads_body = self.motion.constraint.path, bool(self.motion.task.reads)
-        ends = self.start.world, self.end.world
-        if not reads_body:
+        return self.targets_at(progress, frames, evaluator)
+
+    def targets_at(self, progress: Array, frames: Frames, evaluator: Evaluator) -> Array:
+        """Return where the site is after shares (T,) of its way, (T, 3); frames (T, …) then."""
+        path, ends = self.motion.constraint.path, (self.start.world, self.end.world)
+        if not self.reads_body:
             one = Frames(frames.positions[:1], frames.rotations[:1])
             return np.asarray(evaluator.path(path, *ends, progress, one).reshape(-1, 3))
-        out = np.empty((len(times), 3))
+        out = np.empty((len(progress), 3))
         for i, s in enumerate(progress):
             now = Frames(frames.positions[i], frames.rotations[i])
             out[i] = evaluator.path(path, *ends, float(s), now)
@@ -254,7 +263,7 @@ def anchor(
         motion: PathMotion, placement: TimedTask | None, key: KeyPosture | None, time: Fraction
     ) -> PathEnd:
         q = movement.sample(np.array([float(time)]))[0] if key is None else key.coordinates
-        frames = evaluator.rig.chain.frames(q)
+        frames = kinematics.frames(evaluator.rig.chain, q)
         world = evaluator.site(motion.constraint.site, frames)
         if placement is None or key is None:
             return PathEnd(time, world)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from azee.clip.spline import minimum_jerk
 from azee.motion.overlay.turning import angular_velocity
 from azee.motion.tasks.timed_task import TimedTask
+from azee_solver import kinematics
 from azee_solver.constraint import Rotate
 from azee_solver.evaluate import Evaluator
 
@@ -124,7 +125,7 @@ def _joint(constraint: Rotate, evaluator: Evaluator) -> _Joint:
     key = constraint.bone.key(evaluator.binding.dominant)
     own = [v for v, name in enumerate(rig.coordinates.names) if name.partition(".")[0] == key]
     parent = int(rig.chain.parents[nodes.origin_node])
-    into = rig.chain.frames(neutral).rotations[parent].T if parent >= 0 else np.eye(3)
+    into = kinematics.frames(rig.chain, neutral).rotations[parent].T if parent >= 0 else np.eye(3)
     axes = [into @ angular_velocity(rig, neutral, v, nodes.node) for v in own]
     return _Joint(own, np.stack(axes, axis=1))
 
@@ -138,7 +139,7 @@ def _offset(task: TimedTask, evaluator: Evaluator) -> Array:
     assert isinstance(constraint, Rotate)
     joint = _joint(constraint, evaluator)
     neutral = np.asarray(evaluator.rig.coordinates.idle)
-    axis = evaluator.vector(constraint.axis, evaluator.rig.chain.frames(neutral))
+    axis = evaluator.vector(constraint.axis, kinematics.frames(evaluator.rig.chain, neutral))
     length = float(np.linalg.norm(axis))
     out = np.zeros(len(neutral))
     if np.isfinite(length) and length > 1e-9:

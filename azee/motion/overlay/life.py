@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.rig import Rig
+from azee_solver import kinematics
 
 Array = NDArray[np.float64]
 
@@ -31,7 +32,7 @@ DRIFT_HZ = (0.12, 2.2)
 SLOW_DRIFT_HZ = (0.1, 0.9)
 _SINES = 9
 DRIFT_DEG: Mapping[str, float] = {
-    "back": 0.35, "neck": 0.6, "head": 0.7, "eye": 0.12, "clav": 0.35, "arm": 0.4, "f_arm": 0.4,
+    "back": 0.35, "neck": 0.5, "head": 0.6, "eye": 0.12, "clav": 0.35, "arm": 0.4, "f_arm": 0.4,
     "palm": 0.4,
 }  # fmt: skip
 """Root mean square of the drift of coordinates, by the beginning of their bones' names."""
@@ -99,7 +100,7 @@ def _breath(times_s: Array, rng: np.random.Generator) -> Array:
 def _with_hands(rig: Rig, q: Array, times_s: Array) -> dict[str, Array]:
     """Return what trunk and head do as the hands move, by coordinate, (T,) radians."""
     palms = [rig.bones[name].node for name in ("palm_L", "palm_R") if name in rig.bones]
-    hands = rig.chain.frames(q).positions[:, palms].mean(axis=1)
+    hands = kinematics.frames(rig.chain, q).positions[:, palms].mean(axis=1)
     fps = (len(times_s) - 1) / (times_s[-1] - times_s[0])
     away = _low_passed(hands - hands[0], FOLLOWING_HZ, fps)
     out = {name: np.radians(away @ np.array(gains)) for name, gains in FOLLOWING_DEG_M.items()}

@@ -21,6 +21,7 @@ from azee.motion.overlay.turning import angular_velocity
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
 from azee_rig.coordinates import Coordinates
+from azee_solver import kinematics
 from azee_solver.anatomy import anatomy
 from azee_solver.constraint import Trill
 from azee_solver.evaluate import Evaluator
@@ -70,7 +71,7 @@ def oscillation(task: TimedTask, q: Array, evaluator: Evaluator) -> Oscillation:
     assert isinstance(trill, Trill)
     chain, coordinates = evaluator.rig.chain, evaluator.rig.coordinates
     nodes = evaluator.binding.bone(trill.bone)
-    frames = chain.frames(q)
+    frames = kinematics.frames(chain, q)
     axis = _world_axis(trill, frames, evaluator)
     body = anatomy(chain, coordinates)
     best = Oscillation(task, np.zeros(len(coordinates)), 0.0)

@@ -21,6 +21,7 @@ from azee.motion.tasks.limbs import CARRIERS, TRUNK, is_finger, limb_of_coordina
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
 from azee_rig.rig import Rig
+from azee_solver import kinematics
 from azee_solver.anatomy import anatomy
 from azee_solver.body import Body
 from azee_solver.broadphase import Collisions
@@ -87,10 +88,14 @@ class FrameProblems:
             problem = self._lay_out(now, times[rows[0]])
             of_frame[rows] = len(programs)
             programs.append(problem.program)
-            for v, angle in problem.presets.items():
-                fixed[rows, v] = True
-                near = np.clip(target[rows, v], angle - PRESET_PLAY_RAD, angle + PRESET_PLAY_RAD)
-                target[rows, v] = np.clip(near, coordinates.lower[v], coordinates.upper[v])
+            if problem.presets:
+                members, angles = [*problem.presets], np.array([*problem.presets.values()])
+                of_shape = np.ix_(rows, members)
+                fixed[of_shape] = True
+                near = np.clip(target[of_shape], angles - PRESET_PLAY_RAD, angles + PRESET_PLAY_RAD)
+                target[of_shape] = np.clip(
+                    near, coordinates.lower[members], coordinates.upper[members]
+                )
             moving += self._paths(problem, rows, times)
             moving += self._moving_targets(problem, rows, times, reference)
         smooth = free_keep * (SMOOTH_S * fps) ** (2 * ORDER)
@@ -199,7 +204,8 @@ class FrameProblems:
         """Yield the sites on paths in frames that share a program."""
         for i, path in enumerate(problem.now.paths):
             row = problem.program.rows[problem.runs[len(problem.now.tasks) + i][0]]
-            yield _OnPath(path, row.b, {t: times[t] for t in rows})
+            progress = np.array([path.motion.progress(times[t]) for t in rows])
+            yield _OnPath(path, row.b, np.array(rows), progress)
 
     def _moving_targets(
         self, problem: _Problem, rows: Sequence[int], times: Sequence[Fraction], q: Array
@@ -209,7 +215,7 @@ class FrameProblems:
         if not moving:
             return
         on_paths = [p.entry for p in self._paths(problem, rows, times)]
-        frames = self.monitor.evaluator.rig.chain.frames(q[rows])
+        frames = kinematics.frames(self.monitor.evaluator.rig.chain, q[rows])
         numbers = []
         for k, t in enumerate(rows):
             tape = self._tape(Frames(frames.positions[k], frames.rotations[k]))
@@ -225,11 +231,12 @@ class FrameProblems:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _OnPath:
-    """A site on a path: which entry its target is, and when, by frame."""
+    """A site on a path: which entry its target is, and how far it is in which frames, (R,)."""
 
     path: AnchoredPath
     entry: int
-    times: Mapping[int, Fraction]
+    frames: NDArray[np.int64]
+    progress: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -261,16 +268,17 @@ class _Refilling:
                 case _Numbers(frame, entries, numbers):
                     if frame in frames:
                         found[frame - frames.start] += [*zip(entries, numbers, strict=True)]
-                case _OnPath(path, entry, times):
-                    rows = [t for t in times if t in frames]
-                    if not rows:
+                case _OnPath(path, entry, on_it, progress):
+                    inside = (frames.start <= on_it) & (on_it < frames.stop)
+                    here = on_it[inside] - frames.start
+                    if not len(here):
                         continue
-                    body = body or self.evaluator.rig.chain.frames(q)
-                    here = [t - frames.start for t in rows]
+                    body = body or kinematics.frames(self.evaluator.rig.chain, q)
                     then = Frames(body.positions[here], body.rotations[here])
-                    points = path.targets([times[t] for t in rows], then, self.evaluator)
-                    for row, point in zip(here, points, strict=True):
-                        found[row].append((entry, np.array([*point, 0.0, 0.0])))
+                    numbers = np.zeros((len(here), 5))
+                    numbers[:, :3] = path.targets_at(progress[inside], then, self.evaluator)
+                    for row, target in zip(here.tolist(), numbers, strict=True):
+                        found[row].append((entry, target))
         counts = np.array([len(f) for f in found], dtype=np.int64)
         places = np.zeros((len(found), max(1, int(counts.max(initial=0)))), dtype=np.int64)
         filled = np.zeros((*places.shape, 5))

@@ -15,6 +15,7 @@ from azee.motion.keys.residual_monitor import MovementSamples
 from azee.motion.keys.transpath import PathEnd
 from azee.motion.projection.frame_problems import FrameProblems
 from azee_rig.chain import Frames
+from azee_solver import kinematics
 from azee_solver.options import SolveOptions
 
 Array = NDArray[np.float64]
@@ -33,10 +34,11 @@ class Reference:
     accented: NDArray[np.bool_]
 
 
-LEAD = 0.012
+LEAD = 0.018
 """Share of its time by which a site on its path is early or late at most, in the middle."""
-GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
-"""Multiples of it, taken modulo 1, are far from each other if they follow each other."""
+LEAD_STEP = (5.0 - math.sqrt(5.0)) / 10.0
+"""Multiples of it, taken modulo 1, differ by .17 to .45 from the next three: paths follow each
+other, or every other one is the same again, as where a hand goes to and fro."""
 
 
 def on_living_body(planned: Plan, reference: Reference, seed: int | None) -> Plan:
@@ -52,11 +54,11 @@ def on_living_body(planned: Plan, reference: Reference, seed: int | None) -> Pla
 
     def carried(end: PathEnd) -> PathEnd:
         q = reference.q[int(np.abs(seconds - float(end.time)).argmin())]
-        return end.carried(chain.frames(q), monitor.evaluator)
+        return end.carried(kinematics.frames(chain, q), monitor.evaluator)
 
     paths = {}
     for n, (rank, path) in enumerate(sorted(monitor.paths.items())):
-        lead = 0.0 if seed is None else LEAD * (2.0 * ((n + seed) * GOLDEN % 1.0) - 1.0)
+        lead = 0.0 if seed is None else LEAD * (2.0 * ((n + seed % 1000) * LEAD_STEP % 1.0) - 1.0)
         motion = replace(path.motion, lead=lead)
         paths[rank] = replace(path, motion=motion, start=carried(path.start), end=carried(path.end))
     return replace(planned, monitor=replace(monitor, paths=paths))

@@ -110,13 +110,8 @@ def _held(
                     path=leaf.path,
                     rule=_rule(leaf),
                     interval=leaf.interval,
-                    held_channels=_both(requirement.held_channels, hold.channels),
+                    held_channels=(*requirement.held_channels, hold.channels),
                 )
-
-
-def _both(inner: tuple[str, ...] | None, outer: tuple[str, ...]) -> tuple[str, ...]:
-    """Channels that a hold of a hold keeps."""
-    return outer if inner is None else tuple(c for c in outer if c in inner)
 
 
 def _sibling(leaf: Leaf, hold: Hold) -> tuple[Block, Fraction]:

@@ -10,11 +10,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.score.score import SIDE_CHANNELS
 from azee_rig.coordinates import Coordinates
 from azee_solver.binding import Binding
 from azee_solver.constraint import (
@@ -42,6 +43,7 @@ _FINGER = re.compile(r"((?:thumb|index|middle|ring|little)_[LR])(?:_\d)?")
 _ARM = re.compile(r"(?:clav|arm|f_arm|palm)_([LR])")
 
 
+@lru_cache(maxsize=1024)
 def limb_of_bone(bone: str) -> str:
     """Limb that a bone of the body belongs to, such as `arm_L`, by the bone's key."""
     if found := _FINGER.fullmatch(bone):
@@ -55,6 +57,7 @@ def limb_of_bone(bone: str) -> str:
     return TRUNK if bone.startswith("back_") else bone
 
 
+@lru_cache(maxsize=1024)
 def limb_of_coordinate(coordinate: str) -> str:
     """Limb of a coordinate, by its name: `f_arm_R.pronation` is of `arm_R`."""
     return limb_of_bone(coordinate.partition(".")[0])
@@ -103,7 +106,8 @@ class Limbs:
 
     def touching(self, coordinates: Iterable[int]) -> frozenset[str]:
         """Limbs that own any of the coordinates."""
-        return frozenset(self.names[self.of_coordinate[v]] for v in coordinates)
+        indices = np.fromiter(coordinates, dtype=np.int64)
+        return frozenset(self.names[i] for i in {*self.of_coordinate[indices].tolist()})
 
 
 def limb_of_constraint(constraint: Constraint, binding: Binding) -> str:
@@ -125,7 +129,14 @@ def limb_of_constraint(constraint: Constraint, binding: Binding) -> str:
             return limb_of_coordinate(next(iter(angles)))
 
 
-def channel_of_constraint(constraint: Constraint, binding: Binding) -> str:
-    """Channel that a hold must name to keep a constraint."""
+def channels_of_constraint(constraint: Constraint, binding: Binding) -> frozenset[str]:
+    """Channels of which a hold must name one to keep a constraint: for a hand also its side's."""
     limb = limb_of_constraint(constraint, binding)
-    return limb if limb == "face" else channel_of_limb(limb)
+    if limb == "face" or channel_of_limb(limb) != "hands":
+        return frozenset({limb})
+    sides = {
+        name
+        for name, side in SIDE_CHANNELS.items()
+        if limb.endswith(f"_{side.bound(binding.dominant).value}")
+    }
+    return frozenset({"hands", *sides})

@@ -16,8 +16,8 @@ class Requirement:
     path: names of the blocks that lead to it, outermost first. rule: the innermost rule
     application it stands in. interval: when it holds. motion: the interval over which its dynamic
     points move; differs from `interval` in a hold, which keeps them where they ended. rank: order
-    in the nesting, which breaks ties between blocks of equal start. held_channels: for a hold,
-    which parts of the body it keeps; only a rig tells which part a constraint concerns.
+    in the nesting, which breaks ties between blocks of equal start. held_channels: which parts of
+    the body each hold keeps that it comes through; only a rig tells which part it concerns.
     """
 
     constraint: Constraint
@@ -26,7 +26,7 @@ class Requirement:
     interval: Interval
     motion: Interval
     rank: int
-    held_channels: tuple[str, ...] | None = None
+    held_channels: tuple[tuple[str, ...], ...] = ()
 
     def covers(self, time: Fraction) -> bool:
         """Whether it holds at an instant, both ends included."""

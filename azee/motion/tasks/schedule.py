@@ -7,7 +7,7 @@ from functools import cached_property
 
 from azee.motion.tasks.flatten import Timeline
 from azee.motion.tasks.interval_index import IntervalIndex
-from azee.motion.tasks.limbs import CARRIERS, Limbs, channel_of_constraint, limb_of_constraint
+from azee.motion.tasks.limbs import CARRIERS, Limbs, channels_of_constraint, limb_of_constraint
 from azee.motion.tasks.requirement import Requirement
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.rig import Rig
@@ -108,8 +108,8 @@ def bind(
         constraint = requirement.constraint
         if not binding.has(constraint):
             continue
-        channels = requirement.held_channels
-        if channels is not None and channel_of_constraint(constraint, binding) not in channels:
+        kept = channels_of_constraint(constraint, binding)
+        if any(kept.isdisjoint(channels) for channels in requirement.held_channels):
             continue
         task = _timed_task(requirement, rig, binding, limbs)
         facial = isinstance(constraint, Morph) and not binding.is_skeletal(constraint)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from azee.clip.spline import minimum_jerk
@@ -21,7 +21,8 @@ class TimedTask:
 
     limb: that of the bone or site which the constraint names. moves: coordinates that can move
     this bone or site. reads: all other coordinates that change the residual, as a head does that a
-    hand touches. limbs, read_limbs: the limbs of either. dynamic: its target moves.
+    hand touches. limbs, read_limbs: the limbs of either, used_limbs: of both. dynamic: its
+    target moves.
     """
 
     requirement: Requirement
@@ -31,6 +32,10 @@ class TimedTask:
     limbs: frozenset[str]
     read_limbs: frozenset[str]
     dynamic: bool
+    used_limbs: frozenset[str] = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "used_limbs", self.limbs | self.read_limbs)
 
     @property
     def constraint(self) -> Constraint:
@@ -51,11 +56,6 @@ class TimedTask:
     def rank(self) -> int:
         """Its place in the order of the score; no two are equal."""
         return self.requirement.rank
-
-    @property
-    def used_limbs(self) -> frozenset[str]:
-        """Limbs that it moves or reads."""
-        return self.limbs | self.read_limbs
 
     def ik_task(self, time: Fraction) -> Task:
         """Return what it asks of a posture at an instant."""

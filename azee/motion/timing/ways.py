@@ -23,6 +23,7 @@ from azee.motion.timing.pace import SHOULDERS_M, Pace
 from azee.motion.timing.way import Way
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
+from azee_solver import kinematics
 from azee_solver.constraint import Place
 from azee_solver.evaluate import Evaluator
 
@@ -55,7 +56,7 @@ class Ways:
         """How many times larger a body is whose shoulders are `SHOULDERS_M` apart."""
         rig = self.evaluator.rig
         joints = [rig.bones[f"arm_{s}"].origin_node for s in SIDES]
-        left, right = rig.chain.frames(rig.coordinates.idle).positions[joints]
+        left, right = kinematics.frames(rig.chain, rig.coordinates.idle).positions[joints]
         return SHOULDERS_M / float(np.linalg.norm(left - right))
 
     def needed_s(self, before: Array, after: Array, limbs: frozenset[str]) -> float:
@@ -67,7 +68,7 @@ class Ways:
         sides = [s for s in SIDES if f"arm_{s}" in limbs]
         if not sides:
             return 0.0
-        frames = self.evaluator.rig.chain.frames(q)
+        frames = kinematics.frames(self.evaluator.rig.chain, q)
         needed = max(self._measured(s, frames, q, 1.0)[0] for s in sides)
         return needed + ONSET_SPREAD_S if needed > 0.0 else 0.0
 
@@ -117,7 +118,7 @@ class Ways:
             [np.linspace(float(a.time), float(b.time), SAMPLES) for a, b in pairs]
         )
         q[:, self.members[limb]] = movement.curves[limb].sample(times)
-        frames = self.evaluator.rig.chain.frames(q)
+        frames = kinematics.frames(self.evaluator.rig.chain, q)
         for n, (a, b) in enumerate(pairs):
             rows = slice(n * SAMPLES, (n + 1) * SAMPLES)
             part = Frames(frames.positions[rows], frames.rotations[rows])
@@ -161,7 +162,7 @@ class Ways:
                 path.start.world,
                 path.end.world,
                 np.linspace(0.0, 1.0, PATH_POINTS),
-                self.evaluator.rig.chain.frames(ends[0]),
+                kinematics.frames(self.evaluator.rig.chain, ends[0]),
             )
             source = motion.task.path if motion.before is None else motion.before.path
             target = motion.task.path if motion.after is None else motion.after.path
@@ -178,7 +179,7 @@ class Ways:
             if span != task.interval or not span.duration:
                 continue
             ends = movement.sample(np.array([float(span.start), float(span.end)]))
-            frames = self.evaluator.rig.chain.frames(ends[0])
+            frames = kinematics.frames(self.evaluator.rig.chain, ends[0])
             points = np.stack(
                 [
                     self.evaluator.point(task.constraint.point, frames, float(s))

@@ -20,6 +20,7 @@ from azee_rig.machine_code import KEEPS
 from azee_rig.pointers import INNER, WORDS, carray, integers, reals
 from azee_solver.block import (
     AT_DISTANCE,
+    BAND_PAD,
     CODES,
     COLUMN,
     FREE,
@@ -162,7 +163,8 @@ def _step(
         if component[v] == first:
             members[m] = v
             m += 1
-    band, x = reals(room, (T * m, order * m + 1)), reals(spare, (T * m,))
+    width = order * m + 1
+    band, x = reals(room, (T * m, width + BAND_PAD)), reals(spare, (T * m,))
     for t in range(T):
         for a in range(m):
             i, row = members[a], band[t * m + a]
@@ -179,8 +181,8 @@ def _step(
                 if t + o < T and stuck[t + o, i] == 0:
                     row[o * m] += bands[o, t] * smooth[i]
             x[t * m + a] = -gradient[t, i]
-    factorise(band)
-    solve(band, x)
+    factorise(band, width)
+    solve(band, width, x)
     for t in range(T):
         for a in range(m):
             step[t, members[a]] = x[t * m + a]
@@ -193,12 +195,12 @@ def project(words):
     Words: T, n, R, K, order, most steps; blocks (T,) of all n coordinates; x, ref, keep (T, n);
     row weights (T, R); how many entries of a tape are refilled (T,), which (T, K) and with what
     (T, K, 5); bands (order + 1, T) of Dᵀ D; s, lower, upper (n,); fixed (T, n); the shares
-    σ and w_o, the relative gain that ends it and the first damping (4,); room: matrices (T, n, n),
-    band (T n, order n + 1), gradient, step, trial, spare (T, n), and a pointer to nothing; results:
-    largest miss (T,), value and steps (2,); more room: (T, n) integers, (T n,), two of (n,)
-    integers, (T,), (n, n) integers.
+    σ and w_o, the relative gain that ends it and the first damping (4,); room: matrices
+    (2, T, n, n), band (T n, order n + 1 + BAND_PAD), gradients (2, T, n), step, trial, spare
+    (T, n), and a pointer to nothing; results: largest miss (T,), value and steps (2,); more room:
+    (T, n) integers, two of (n,) integers, (T,), (n, n) integers.
     """
-    w = carray(words, (35,))
+    w = carray(words, (34,))
     T, n, R, K, order, rounds = w[0], w[1], w[2], w[3], w[4], w[5]
     blocks = integers(w[6], (T,))
     x, ref, keep = reals(w[7], (T, n)), reals(w[8], (T, n)), reals(w[9], (T, n))
@@ -207,27 +209,25 @@ def project(words):
     numbers, bands = reals(w[13], (T, K, 5)), reals(w[14], (order + 1, T))
     smooth, lower, upper = reals(w[15], (n,)), reals(w[16], (n,)), reals(w[17], (n,))
     fixed, options = integers(w[18], (T, n)), reals(w[19], (4,))
-    hessian = reals(w[20], (T, n, n))
-    gradient, step = reals(w[22], (T, n)), reals(w[23], (T, n))
-    trial, spare = reals(w[24], (T, n)), reals(w[25], (T, n))
+    hessians = reals(w[20], (2, T, n, n))
+    gradients, step = reals(w[22], (2, T, n)), reals(w[23], (T, n))
+    trial = reals(w[24], (T, n))
     misses, result = reals(w[27], (T,)), reals(w[28], (2,))
     nothing = reals(w[26], (0, 0))
     stuck = integers(w[29], (T, n))
-    component, members = integers(w[31], (n,)), integers(w[32], (n,))
-    trial_misses, coupled = reals(w[33], (T,)), integers(w[34], (n, n))
+    component, members = integers(w[30], (n,)), integers(w[31], (n,))
+    trial_misses, coupled = reals(w[32], (T,)), integers(w[33], (n, n))
     damping, growth = options[3], 2.0
-    value, fresh, steps = np.inf, False, 0
+    value, steps, now = np.inf, 0, 0
     for t in range(T):
         for k in range(n):
             trial[t, k] = x[t, k]
     while True:
-        other = 0.0
-        first = value == np.inf
+        other, then = 0.0, 1 - now
         for t in range(T):
             f, missed = _frame(
                 t, blocks[t], trial[t], ref[t], keep[t], weight[t], counts, places, numbers,
-                options, hessian[t] if first and rounds > 0 else nothing,
-                gradient[t] if first else spare[t],
+                options, hessians[then, t] if steps < rounds else nothing, gradients[then, t],
             )  # fmt: skip
             other += f
             trial_misses[t] = missed
@@ -235,32 +235,25 @@ def project(words):
                 other += (trial[t, v] - ref[t, v]) * _roughness(t, trial, ref, bands, smooth, v)
         gain = value - other
         if gain > 0.0:
-            if fresh:
+            if steps > 0:
                 foreseen = 0.0
                 for t in range(T):
                     for k in range(n):
-                        foreseen -= (trial[t, k] - x[t, k]) * gradient[t, k]
+                        foreseen -= (trial[t, k] - x[t, k]) * gradients[now, t, k]
                 ratio = min(1.0, gain / max(foreseen, 1e-300))
                 damping = max(1e-9, damping * max(1.0 / 3.0, 1.0 - (2.0 * ratio - 1.0) ** 3))
                 growth = 2.0
-            value = other
+            value, now = other, then
             for t in range(T):
                 misses[t] = trial_misses[t]
                 for k in range(n):
                     x[t, k] = trial[t, k]
-            if fresh and gain <= options[2] * other:
+            if steps > 0 and gain <= options[2] * other:
                 break
-            fresh = True
-            if not first:
-                for t in range(T):
-                    _frame(
-                        t, blocks[t], x[t], ref[t], keep[t], weight[t], counts, places, numbers,
-                        options, hessian[t], gradient[t],
-                    )  # fmt: skip
             for t in range(T):
                 for v in range(n):
-                    gradient[t, v] += _roughness(t, x, ref, bands, smooth, v)
-                    g = gradient[t, v]
+                    gradients[now, t, v] += _roughness(t, x, ref, bands, smooth, v)
+                    g = gradients[now, t, v]
                     at_limit = (x[t, v] <= lower[v] and g >= 0.0) or (
                         x[t, v] >= upper[v] and g <= 0.0
                     )
@@ -271,12 +264,12 @@ def project(words):
         if steps >= rounds or damping > MOST_DAMPING or not math.isfinite(value):
             break
         steps += 1
-        _couple(hessian, coupled, component)
+        _couple(hessians[now], coupled, component)
         for c in range(n):
             if component[c] == c:
                 _step(
-                    c, component, members, hessian, gradient, bands, smooth, stuck, damping,
-                    w[21], w[30], step,
+                    c, component, members, hessians[now], gradients[now], bands, smooth, stuck,
+                    damping, w[21], w[25], step,
                 )  # fmt: skip
         for t in range(T):
             for k in range(n):

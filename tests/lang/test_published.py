@@ -65,6 +65,10 @@ SCORES = {
         "sync\n    'PALM-L-HALF-CLOSED\n    key\n        1\n        cstr\n            morph\n"
         "                'palm_l_closed\n                0.5\n"
     ),
+    "a name of two words": (":info-about\n    'topic\n    :mois sgn1\n    'info\n    :décembre\n"),
+    "a posture rule in a key": "key\n    1\n    :#all5_curled_morph_l\n",
+    "a person": ":une personne\n",
+    "nicht and sondern in a row": ":nicht-sondern 'nicht :arbre 'sondern :armoire\n",
     "commas without spaces": ":info-about(:âge,:mignon)\n",
 }
 
@@ -140,8 +144,8 @@ def test_the_operands_of_an_orientation_stay_symbolic() -> None:
     assert isinstance(orient.vector, Nrm)
 
 
-def test_a_rule_that_is_only_named_is_unknown_and_nothing_else() -> None:
-    text = ":info-about\n    'topic\n    :mois sgn1\n    'info\n    :décembre\n"
+def test_a_rule_that_does_not_ship_is_unknown_and_nothing_else() -> None:
+    text = ":info-about\n    'topic\n    :mois sgn9\n    'info\n    :brumaire\n"
     assert found(text) == ["unknown-rule 3:5", "unknown-rule 5:5"]
 
 

@@ -27,20 +27,29 @@ SIGNS = (
     *("mignon", "bonjour", "mercredi", "tree", "wardrobe", "cinema", "good", "person", "age"),
     *("country", "Iraq", "cat", "cute", "hello", "Wednesday"),
 )
-POSTURES = {"shape": ":#fist", "more": ":#fist"}
-OPERATORS = {"tens": ".nb-5", "units": ".nb-2"}
+ARGUMENTS = {
+    **dict.fromkeys(("pt", "loc", "centre", "from", "to", "position", "looking-at"), "^Rssp"),
+    **dict.fromkeys(("shape", "more", "hand"), ":#fist"),
+    **dict.fromkeys(("tens", "units"), ".nb-2"),
+    "items": "list((blank 1), (blank 1))",
+    "offsets": "list(^left, ^right)",
+    "face": ".frown",
+    "class": ".building-cl",
+    "n": "3",
+    "param$0": "s",
+}
+"""What stands for an argument that must be given, by its name; a score for any other."""
+OF_MULTIPLES = {"elt": ".personne"}
 
 
 def _application(rule: Rule) -> str:
     """The rule applied with an argument for everything that must be given."""
     arguments = [_argument(rule, name) for name, mandatory in rule.parameters if mandatory]
-    return f"{rule.name}({', '.join(arguments)})"
+    return f":{rule.name}({', '.join(arguments)})"
 
 
 def _argument(rule: Rule, name: str) -> str:
-    if name in ("pt", "loc"):
-        return f"'{name} = ^Rssp"
-    given = POSTURES | OPERATORS if rule.name in ("number-sign", "tens-units") else {}
+    given = ARGUMENTS | (OF_MULTIPLES if rule.name.startswith("mult-") else {})
     return f"'{name} = {given.get(name, '(blank 1)')}"
 
 

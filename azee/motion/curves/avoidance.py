@@ -68,6 +68,9 @@ WORTHWHILE = 0.7
 MAX_ITERATIONS, MAX_STEP_RAD = 40, 0.15
 LEAST_GAIN = 0.05
 """A step that lowers the sum by less than this share is the last one."""
+MOST_ADDED_RAD_S, MOST_ADDED_RAD_S2 = math.radians(90.0), math.radians(800.0)
+"""Largest speed and acceleration that an offset adds to a coordinate. Without a bound an arm at
+rest was once swung aside by 111° in .2 s, out of the way of a hand that came there later."""
 DAMPING = 0.03
 OFFSET_WEIGHT_M = 0.015
 """An offset of one radian costs as much as this overlap in one sample."""
@@ -162,10 +165,16 @@ class CollisionAvoidance:
         count = int(np.clip((end - start) / SAMPLE_S, FEWEST_SAMPLES, MOST_SAMPLES))
         times = np.linspace(start, end, count + 2)
         time_share = (end - start - SHORT_S) / (LONG_S - SHORT_S)
+        weights = np.hstack([np.outer(v.weight(times), np.ones(len(v.members))) for v in zero])
+        step_s = times[1] - times[0]
+        speed, acceleration = (
+            np.abs(np.diff(weights, n, axis=0)).max(axis=0) / step_s**n for n in (1, 2)
+        )
         search = _OffsetSearch(
             movement.sample(times),
             np.concatenate([v.members for v in zero]),
-            np.hstack([np.outer(v.weight(times), np.ones(len(v.members))) for v in zero]),
+            weights,
+            np.minimum(MOST_ADDED_RAD_S / speed, MOST_ADDED_RAD_S2 / acceleration),
             self.overlaps,
             self.overlaps.axis_distances(self.intended_touches(start, end)),
             float(np.clip(time_share, LEAST_CLEARANCE_SHARE, 1.0)),
@@ -228,13 +237,15 @@ class _OffsetSearch:
     """Damped least squares for the smallest offset with which all pairs keep their distance.
 
     q: (T, V) samples of the stretch. members: (n,) coordinates to offset. weights: (T, n) share of
-    the offset at each sample. axis_distances: (P,) metres. clearance_share: how much of the
-    clearance to keep, as there is time for it. lower, upper: (V,) limits.
+    the offset at each sample. most: (n,) largest offset either way. axis_distances: (P,) metres.
+    clearance_share: how much of the clearance to keep, as there is time for it. lower, upper: (V,)
+    limits.
     """
 
     q: Array
     members: NDArray[np.int64]
     weights: Array
+    most: Array
     overlaps: CapsuleOverlaps
     axis_distances: Array
     clearance_share: float
@@ -262,6 +273,7 @@ class _OffsetSearch:
             lhs += (OFFSET_WEIGHT_M**2 + damping) * np.eye(len(c))
             step = -np.linalg.solve(lhs, rhs + OFFSET_WEIGHT_M**2 * c)
             step *= min(1.0, MAX_STEP_RAD / max(1e-9, float(np.max(np.abs(step)))))
+            step = np.clip(c + step, -self.most, self.most) - c
             new_error, new_J = self._errors(c + step, pairs, allowed)
             new_cost = float(np.sum(new_error**2) + OFFSET_WEIGHT_M**2 * np.sum((c + step) ** 2))
             gain = 1.0 - new_cost / cost

@@ -25,15 +25,15 @@ class Pace:
 
     wrist_m_s, wrist_m_s2: speed and acceleration of a wrist, or of a site on its path. joint_rad_s:
     speed of a coordinate of the arm, from clavicle to wrist. docs/likeness.md tells where such
-    limits come from; the wrist's speed keeps a distance from the 2.5 m/s there, for the movement
-    may still have to go round the body.
+    limits come from; these keep a distance from the 2.5 m/s, 40 m/s² and 600 °/s there, for the
+    movement may still have to go round the body.
 
     Raises: ValueError: a limit is not above zero.
     """
 
-    wrist_m_s: float = 2.0
-    wrist_m_s2: float = 40.0
-    joint_rad_s: float = math.radians(600.0)
+    wrist_m_s: float = 1.9
+    wrist_m_s2: float = 34.0
+    joint_rad_s: float = math.radians(570.0)
 
     def __post_init__(self) -> None:
         limits = (self.wrist_m_s, self.wrist_m_s2, self.joint_rad_s)

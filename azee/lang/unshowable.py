@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import fields, is_dataclass
 from functools import lru_cache
 
 from azee.lang.known_vector import is_zero
@@ -26,7 +25,8 @@ from azee_solver.constraint import (
     Transpath,
     Trill,
 )
-from azee_solver.geometry import Around, Circle, Moving, Rotated, Side, Slide, Unit, Vector
+from azee_solver.cycles import cycles, parts
+from azee_solver.geometry import Around, Circle, Rotated, Side, Unit, Vector
 from azee_solver.notation import vector_text
 
 Where = Callable[[Constraint], Span | None]
@@ -144,19 +144,10 @@ def _is_facial(morph: Morph, dominant: Side) -> bool:
 
 
 def _turn_rates(constraint: Constraint, duration_s: float) -> Iterator[float]:
-    """Yield the turns a second of every circle that a constraint moves on; none lasts no time."""
+    """Yield the cycles a second of every path that a constraint moves on; none lasts no time."""
     if duration_s > 0.0:
-        for turns in _turns(constraint):
-            yield abs(turns) / duration_s
-
-
-@lru_cache(maxsize=4096)
-def _turns(constraint: Constraint) -> tuple[float, ...]:
-    """Return the turns of every circle that a constraint moves on."""
-    whole = (constraint.path,) if isinstance(constraint, Transpath) else ()
-    inner = (node.path for node in _nodes(constraint) if isinstance(node, Moving))
-    named = [path.path if isinstance(path, Slide) else path for path in (*whole, *inner)]
-    return tuple(path.turns for path in named if isinstance(path, Circle | Around))
+        for count in cycles(constraint):
+            yield count / duration_s
 
 
 @lru_cache(maxsize=4096)
@@ -174,19 +165,8 @@ def _directions(constraint: Constraint) -> Iterator[Vector]:
             yield axis
         case Place() | LookAt() | Morph() | Transpath():
             pass
-    for node in _nodes(constraint):
+    for node in parts(constraint):
         if isinstance(node, Unit):
             yield node.vector
         elif isinstance(node, Rotated | Circle | Around):
             yield node.axis
-
-
-def _nodes(node: object) -> Iterator[object]:
-    """Yield the parts of a constraint, outermost first."""
-    if isinstance(node, tuple):
-        for item in node:
-            yield from _nodes(item)
-    elif is_dataclass(node):
-        yield node
-        for part in fields(node):
-            yield from _nodes(getattr(node, part.name))

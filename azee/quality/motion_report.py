@@ -20,6 +20,7 @@ from azee.quality.likeness import Likeness
 from azee.quality.measures import CoordinatePeaks, Penetration
 from azee_rig.coordinates import Coordinates
 from azee_solver.constraint import Morph, Rotate, Trill
+from azee_solver.cycles import cycles
 from azee_solver.notation import operator_text, subject_text, target_text
 from azee_solver.outcome import Outcome, Price, Strain
 from azee_solver.tolerance import PAPER
@@ -227,7 +228,7 @@ def constraint_results(
     out = []
     for task in schedule.all:
         if task.rank in measured:
-            out.append(_measured(task, plan, samples))
+            out.append(_measured(task, plan, samples, fps))
         elif isinstance(task.constraint, Trill):
             out.append(_trill(task, task.constraint, shortfalls.get(task.rank, 0.0), fps))
         elif isinstance(task.constraint, Rotate):
@@ -237,7 +238,9 @@ def constraint_results(
     return tuple(out)
 
 
-def _measured(task: TimedTask, plan: Plan, samples: MovementSamples) -> ConstraintResult:
+def _measured(
+    task: TimedTask, plan: Plan, samples: MovementSamples, fps: float
+) -> ConstraintResult:
     monitor = plan.monitor
     rows = monitor.rows_inside(task, samples.seconds)
     values = monitor.residual(task, samples.only(rows))
@@ -248,7 +251,19 @@ def _measured(task: TimedTask, plan: Plan, samples: MovementSamples) -> Constrai
         price = _price(task, plan)
         if price is None or not residual <= PAPER.of(task.constraint) * _ROUNDING:
             reason = _reason(task, plan, residual)
-    return _result(task, residual, unit, tolerance, reason, price)
+    return _result(task, residual, unit, tolerance, _unseen(task, fps) or reason, price)
+
+
+def _unseen(task: TimedTask, fps: float) -> str | None:
+    """Return what frames cannot show of a path: between two of them nobody knows where it was.
+
+    A frame rate shows frequencies below half of it (Nyquist 1928, Shannon 1949).
+    """
+    lasts_s = float(task.requirement.motion.duration)
+    most = max(cycles(task.constraint), default=0.0)
+    if lasts_s <= 0.0 or most / lasts_s <= fps / 2:
+        return None
+    return f"no {fps:g} frames a second can show {most / lasts_s:g} turns a second"
 
 
 def _answers(task: TimedTask, plan: Plan) -> Iterator[ConstraintReport]:

@@ -87,12 +87,16 @@ def test_nouns_are_counted() -> None:
     assert [counted(n, "file") for n in (0, 1, 2)] == ["0 files", "1 file", "2 files"]
 
 
+CIRCLING = "(moving (circle ^fwd .03 {}) point(-.2, -.1, .35) point(-.2, -.1, .35))"
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
         ("key .2 (morph 'AU12 5)", "no face goes so far: weights are from −1 to 1"),
         ("key .2 (trill !palm(s) ^up 'freq 16)", "no 30 frames a second can show 16 oscillations"),
         ("key .2 (trill !palm(s) ^up 'freq 99999)", "can show 99999 oscillations"),
+        (f"key .5 (place @I_TIP(s) {CIRCLING.format(100_000)})", "no 30 frames a second can show"),
     ],
 )
 def test_what_no_body_can_show_is_not_said_to_be_met(text: str, reason: str) -> None:
@@ -103,6 +107,13 @@ def test_what_no_body_can_show_is_not_said_to_be_met(text: str, reason: str) -> 
     assert outcome(made.report) == "1 constraint is out of tolerance"
 
 
-@pytest.mark.parametrize("text", ["key .2 (morph 'AU12 -1)", "key .2 (trill !palm(s) ^up 'freq 5)"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "key .2 (morph 'AU12 -1)",
+        "key .2 (trill !palm(s) ^up 'freq 5)",
+        f"key 1 (place @I_TIP(s) {CIRCLING.format(1)})",
+    ],
+)
 def test_what_a_body_can_just_show_is_met(text: str) -> None:
     assert azee.compile(expression=text).report.met

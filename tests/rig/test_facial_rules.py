@@ -88,7 +88,8 @@ def _lips(rig: Rig) -> Pairs:
 
 
 def _height(places: Floats, pairs: Pairs) -> Floats:
-    return np.asarray(places[pairs[:, 0], 1] - places[pairs[:, 1], 1])
+    heights: Floats = places[pairs[:, 0], 1] - places[pairs[:, 1], 1]
+    return heights
 
 
 def test_all_published_faces_are_looked_at() -> None:

@@ -23,7 +23,7 @@ Indices = NDArray[np.int64]
 
 LIDS = (("AU43_L", "AU43"), ("AU43_R", "AU43"))
 """Morphs that close an eye, each with another for bodies that lack it."""
-PARTING, PRESSING = ("AU25_a", "AU25"), ("AU24", "AU8")
+PARTING, CLOSING = ("AU25_a", "AU25"), ("AU24", "AU8")
 """Morphs that part the lips and that press them."""
 JAW = ("AU27", "AU26")
 SMALL_SHARE = 0.3
@@ -86,13 +86,13 @@ def _lid_shares(rig: Rig, names: Sequence[str]) -> Array | None:
 
 def _lip_shares(rig: Rig) -> Array | None:
     """Measure between what parts upwards and what parts downwards."""
-    parting, pressing = _moved(rig, PARTING), _moved(rig, PRESSING)
-    if parting is None or pressing is None:
+    parting, closing = _moved(rig, PARTING), _moved(rig, CLOSING)
+    if parting is None or closing is None:
         return None
     up = parting[:, 1]
     upper, lower = np.nonzero(up > 0.5 * up.max())[0], np.nonzero(up < 0.5 * up.min())[0]
     pairs = _nearest(rig.mesh.vertices, upper, lower)
-    return _gap_shares(rig, pairs, pressing) if len(pairs) else None
+    return _gap_shares(rig, pairs, closing) if len(pairs) else None
 
 
 def _nearest(places: Array, first: Indices, second: Indices) -> Indices:

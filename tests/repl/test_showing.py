@@ -156,7 +156,8 @@ def test_rules_are_listed_searched_and_described(repl: Repl, sheet: Sheet) -> No
     assert answer(repl, 'def kitten\n    \'meaning "a small chat"\n    :chat')
     sheet.taken()
     assert answer(repl, "/rules CHAT")
-    assert sheet.taken().splitlines()[:2] == ["here", "  :kitten  a small chat"]
+    here, found = sheet.taken().splitlines()[:2]
+    assert (here, found.split()) == ("here", [":kitten", "a", "small", "chat"])
     assert answer(repl, "/doc :info-about")
     assert ":info-about 'topic 'info  rule" in sheet.taken()
     assert not answer(repl, "/doc nothing-like-it")

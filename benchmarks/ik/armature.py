@@ -88,7 +88,7 @@ def bare_armature(body: Rig) -> Rig:
             turn @ (world - at_zero.positions[carrier]),
             turn @ at_zero.rotations[site.node] @ site.normal,
         )
-    # Nodes that only the skin needs are left out, and sites that nothing moves.
+    # Nodes that only the skin needs are left out.
     everything: dict[str, Any] = {f.name: given.get(f.name) for f in fields(Rig)}
     return Rig(**everything)
 
@@ -101,6 +101,8 @@ def pinned(body: Rig) -> Rig:
     at_zero = body.chain.frames(np.zeros(len(body.coordinates)))
     sites = {}
     for name, site in body.sites.items():
+        if site.node < 0:
+            continue  # what stands still has no frame to be fixed in
         turn = at_zero.rotations[site.node].T
         local = turn @ (site.point(at_zero) - at_zero.positions[site.node])
         sites[name] = replace(site, position=local, normal=turn @ site.outward(at_zero), shares=())

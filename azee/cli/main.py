@@ -32,6 +32,7 @@ from azee.cli.retarget import retarget
 from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
+from azee.cli.spell import spell
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
@@ -59,6 +60,7 @@ azee.add_command(manifest)
 azee.add_command(rig)
 azee.add_command(retarget)
 azee.add_command(repl)
+azee.add_command(spell)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -66,6 +66,15 @@ MAY_IMPORT: dict[str, set[str]] = {
     },
     "azee.motion": set(),
     "azee.wording": set(),
+    "azee.spelling": set(),
+    "azee.spelling.timing": {"azee.clip", "numpy", "scipy"},
+    "azee.spelling.timing.recordings": {"azee.spelling.timing", "numpy", "pympi"},
+    "azee.spelling.timing.fitting": {"azee.spelling.timing", "numpy", "sklearn"},
+    "azee.spelling.timing.validation": {
+        *("azee.spelling.timing", "numpy", "sklearn", "threadpoolctl"),
+    },
+    "azee.spelling.timing.evaluation": {"azee.spelling.timing", "numpy", "threadpoolctl"},
+    "azee.spelling.timing.figures": {"azee.spelling.timing", "numpy", "matplotlib"},
     "azee.quality": {
         *("azee.clip", "azee.motion", "azee.score", "azee.wording"),
         *("azee_solver", "azee_rig", "numpy"),

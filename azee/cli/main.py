@@ -33,6 +33,7 @@ from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
 from azee.cli.spell import spell
+from azee.cli.study import study
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
@@ -61,6 +62,7 @@ azee.add_command(rig)
 azee.add_command(retarget)
 azee.add_command(repl)
 azee.add_command(spell)
+azee.add_command(study)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -67,6 +67,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.motion": set(),
     "azee.wording": set(),
     "azee.spelling": set(),
+    "azee.spelling.study": {"numpy", "scipy"},
+    "azee.spelling.study.server": {"azee.spelling.study", "starlette", "jinja2"},
+    "azee.spelling.study.report": {"azee.spelling.study", "numpy", "matplotlib", "jinja2"},
     "azee.spelling.timing": {"azee.clip", "numpy", "scipy"},
     "azee.spelling.timing.recordings": {"azee.spelling.timing", "numpy", "pympi"},
     "azee.spelling.timing.fitting": {"azee.spelling.timing", "numpy", "sklearn"},
@@ -105,6 +108,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.notebook": {*OURS, "numpy", "PIL"},
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
     "azee.cli": {*OURS, "click", "rich"},
+    "azee.cli.study": {*OURS, "click", "uvicorn"},
     "azee": OURS,
 }
 """By the longest prefix of the importing module. A package may always import from itself."""

@@ -44,6 +44,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("corpus", "stats", "--help"): set(),
     ("elan", "compare", "--help"): set(),
     ("spell", "--help"): set(),
+    ("study", "--help"): set(),
     ("spell", "timing", "word"): {"numpy"},
     ("rig", "sites", "--format", "json"): {"numpy"},
     ("check", "--quiet", "text.azee"): {"lark"},

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import random
 import sqlite3
 import subprocess
@@ -226,7 +227,7 @@ for page in range(1, 2001):
     with subprocess.Popen(
         [sys.executable, "-c", script, str(path)],
         stdout=subprocess.PIPE,
-        env={"PYTHONPATH": ":".join(p for p in sys.path if p)},
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)},
         text=True,
     ) as process:
         assert process.stdout is not None
@@ -294,7 +295,8 @@ def test_a_report_with_plots(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     rows = (out / "choices.csv").read_text().splitlines()
     assert len(rows) == 1 + 4 * 48
     assert "4 participants, 192 choices" in capsys.readouterr().err
-    assert "needs 194 choices: 25 participants" in (out / "report.html").read_text("utf-8")
+    page = (out / "report.html").read_text("utf-8")
+    assert "needs 194 choices: 25 participants. The pair with the fewest has 32." in page
 
 
 def test_nothing_to_analyse_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -55,6 +55,7 @@ def _page(found: Analysis) -> str:
     return templates.get_template("report.html").render(
         found=found,
         size=sentence(len(found.design.words)),
+        fewest=min(pair.for_first + pair.for_second for pair in found.pairs),
         shares=found.shares(),
         people=[(group, ages[group]) for group in AGES if ages[group]]
         + [(group, fluencies[group]) for group in FLUENCIES if fluencies[group]],

@@ -29,7 +29,8 @@ def participants_needed(words: int) -> int:
 
 def sentence(words: int) -> str:
     """Say it to people."""
+    preference, power = round(100 * PREFERENCE), round(100 * POWER)
     return (
-        f"To tell a preference of {PREFERENCE:.0%} from none with {POWER:.0%} power, each pair of "
+        f"To tell a preference of {preference} % from none with {power} % power, each pair of "
         f"types needs {choices_needed()} choices: {participants_needed(words)} participants."
     )

@@ -241,11 +241,12 @@ def _as_letter_times(recorded: Recorded) -> tuple[LetterTime, ...]:
 
 def _recorded(path: Path, tiers: tuple[str, str]) -> Sequence[Recorded]:
     from azee.clips import reading
+    from azee.corpus.annotations import NoElanLibraryError
     from azee.spelling.timing.letter_poses import asl_poses
-    from azee.spelling.timing.recordings import NoElanReaderError, read_recording
+    from azee.spelling.timing.recordings import read_recording
 
     try:
         with reading(path), refused():
             return read_recording(path, asl_poses(), tiers)
-    except NoElanReaderError as error:
+    except NoElanLibraryError as error:
         raise AZeeError(not_installed(str(error))) from error

@@ -71,7 +71,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.spelling.study.server": {"azee.spelling.study", "starlette", "jinja2"},
     "azee.spelling.study.report": {"azee.spelling.study", "numpy", "matplotlib", "jinja2"},
     "azee.spelling.timing": {"azee.clip", "numpy", "scipy"},
-    "azee.spelling.timing.recordings": {"azee.spelling.timing", "numpy", "pympi"},
+    "azee.spelling.timing.recordings": {
+        *("azee.corpus.annotations", "azee.spelling.timing", "numpy"),
+    },
     "azee.spelling.timing.fitting": {"azee.spelling.timing", "numpy", "sklearn"},
     "azee.spelling.timing.validation": {
         *("azee.spelling.timing", "numpy", "sklearn", "threadpoolctl"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zipfile
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.corpus.annotations import Annotation, NotElanError, read_tiers
 from azee.spelling.timing.alignment import aligned
 from azee.spelling.timing.landmarks import JOINTS, LANDMARKS, joint_angles
 from azee.spelling.timing.letter_poses import LetterPoses
@@ -21,10 +22,6 @@ SUFFIXES = (".eaf", ".npz", ".csv")
 WORDS_TIER, LETTERS_TIER = "words", "letters"
 SHORTEST_S = 0.001
 """ELAN's times are whole milliseconds: letters that touch have a way of one."""
-
-
-class NoElanReaderError(Exception):
-    """pympi, which reads ELAN files, is not installed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +41,7 @@ def read_recording(
 
     Args: poses: of the letters, for landmarks; their joints are `landmarks.JOINTS`. tiers: of an
         ELAN file, that of words and that of the letters' holds.
-    Raises: TimesError: the file cannot be used. NoElanReaderError. OSError: it cannot be read.
+    Raises: TimesError: the file cannot be used. NoElanLibraryError. OSError: it cannot be read.
     """
     match Path(path).suffix.lower():
         case ".eaf":
@@ -71,46 +68,40 @@ def _counted(found: Sequence[Recorded]) -> Sequence[Recorded]:
 
 def _elan(path: str | Path, words_tier: str, letters_tier: str) -> Sequence[Recorded]:
     try:
-        from pympi import Eaf
-    except ImportError as error:
-        raise NoElanReaderError("reading ELAN files needs pympi") from error
-    with Path(path).open("rb"):
-        pass  # pympi has no error of its own for a file that cannot be opened
-    try:
-        file = Eaf(str(path), suppress_version_warning=True)
-        tiers = {name.lower(): name for name in file.get_tier_names()}
-    except Exception as error:  # of any class: pympi does not check what it reads
-        raise TimesError(f"`{path}` is no ELAN file, or a damaged one") from error
-    for name in (words_tier, letters_tier):
-        if name.lower() not in tiers:
-            known = ", ".join(f"`{tier}`" for tier in tiers.values()) or "none"
-            raise TimesError(f"`{path}` has no tier `{name}`; its tiers: {known}")
-    words, holds = (
-        sorted(row[:3] for row in file.get_annotation_data_for_tier(tiers[name.lower()]))
-        for name in (words_tier, letters_tier)
-    )
+        tiers = read_tiers(path)
+    except NotElanError as error:
+        raise TimesError(str(error)) from error
+    words, holds = (_tier(path, tiers, name) for name in (words_tier, letters_tier))
     if not words:
         raise TimesError(f"`{path}`: the tier `{words_tier}` is empty")
-    return [_annotated(path, row, holds) for row in words]
+    return [_annotated(path, word, holds) for word in words]
 
 
-def _annotated(
-    path: str | Path, word: tuple[int, int, str], holds: Sequence[tuple[int, int, str]]
-) -> Recorded:
+def _tier(
+    path: str | Path, tiers: Mapping[str, Sequence[Annotation]], wanted: str
+) -> Sequence[Annotation]:
+    """Return a tier by its name in any case."""
+    for name, tier in tiers.items():
+        if name.lower() == wanted.lower():
+            return tier
+    known = ", ".join(f"`{name}`" for name in tiers) or "none"
+    raise TimesError(f"`{path}` has no tier `{wanted}`; its tiers: {known}")
+
+
+def _annotated(path: str | Path, word: Annotation, holds: Sequence[Annotation]) -> Recorded:
     """Return the word of an annotation, whose letters lie inside it."""
-    begin, end, text = word
-    inside = [(a / 1000, b / 1000, t) for a, b, t in holds if begin <= (a + b) / 2 < end]
-    name = text.strip().upper()
-    spelled = "".join(letter.strip().upper() for _, _, letter in inside)
-    place = f"`{path}`, {begin / 1000:g} s"
+    inside = [h for h in holds if word.start_s <= (h.start_s + h.end_s) / 2 < word.end_s]
+    name = word.text.strip().upper()
+    spelled = "".join(hold.text.strip().upper() for hold in inside)
+    place = f"`{path}`, {word.start_s:g} s"
     if not name or spelled != name:
         raise TimesError(f"{place}: the letters `{spelled}` stand under the word `{name}`")
-    ways = tuple(max(SHORTEST_S, later[0] - earlier[1]) for earlier, later in pairwise(inside))
+    ways = tuple(max(SHORTEST_S, b.start_s - a.end_s) for a, b in pairwise(inside))
     try:
-        timed = TimedWord(name, tuple(b - a for a, b, _ in inside), ways)
+        timed = TimedWord(name, tuple(h.end_s - h.start_s for h in inside), ways)
     except TimesError as error:
         raise TimesError(f"{place}: {error}") from error
-    return Recorded(timed, inside[0][0])
+    return Recorded(timed, inside[0].start_s)
 
 
 def _landmarks(path: str | Path, poses: LetterPoses) -> Recorded:

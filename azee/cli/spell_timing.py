@@ -147,7 +147,7 @@ def evaluate(folder: Path, model_file: Path | None, style: Style, quiet: bool) -
     with with_extra():
         from azee.spelling.timing.report import evaluate_model, write_report
 
-    with working("Measuring …", quiet=quiet) as progress:
+    with working("Measuring …", quiet=quiet) as progress, refused():
         found = evaluate_model(model, style, told=lambda what: progress.now(f"Measuring: {what} …"))
         with writing(folder):
             written = write_report(found, folder)

@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 from PIL import Image
 from programs import Python
+from pympi import Eaf
 
 from azee.cli.main import run
 from azee.clip.archive import read_clip, write_clip
 from azee.clip.clip import Clip, Label
 from azee.spelling.timing.drawn import drawn_words
 from azee.spelling.timing.schedule import duration_s, schedule
-from azee.spelling.timing.timed_word import write_times
+from azee.spelling.timing.timed_word import read_times, write_times
 from azee_rig.rig import Rig
 
 PAGE = Path(__file__).parents[2] / "docs" / "spelling-timing.md"
@@ -118,6 +119,39 @@ def test_an_evaluation_with_tables_and_figures(capsys: pytest.CaptureFixture[str
     assert "| table 4.2" in page
     assert "| table 4.3" in page
     assert "not recorded" in page
+
+
+def test_a_small_model_is_measured_as_far_as_it_goes(capsys: pytest.CaptureFixture[str]) -> None:
+    words = drawn_words()
+    write_times(words[:8], "few.csv")
+    write_times(words[40:44], "fewer.csv")
+    for name in ("few", "fewer"):
+        assert run(["spell", "fit", f"{name}.csv", "-o", f"{name}.json", "--quiet"]) == 0
+    assert run(["spell", "evaluate", "--model", "few.json", "-o", "few", "--quiet"]) == 0
+    told = json.loads(Path("few/evaluation.json").read_text())
+    assert {fact["verdict"] for fact in told["facts"]} == {"reproduced", "differs"}
+    assert not any(fact["reason"] for fact in told["facts"])  # these are of what was drawn
+    assert run(["spell", "evaluate", "--model", "fewer.json", "-o", "fewer"]) == 1
+    assert "5 different words are needed" in capsys.readouterr().err
+
+
+def test_elan_files_make_a_model(capsys: pytest.CaptureFixture[str]) -> None:
+    words = drawn_words()[20:32]
+    for word in words:
+        file = Eaf()
+        file.add_tier("words")
+        file.add_tier("letters")
+        file.add_annotation("words", 950, 1050 + round(1000 * word.duration_s), word.word.lower())
+        for letter, (start, end) in zip(word.word, word.hold_spans_s, strict=True):
+            span = (1000 + round(1000 * start), 1000 + round(1000 * end))
+            file.add_annotation("letters", *span, letter)
+        file.to_file(f"{word.word}.eaf")
+    files = [f"{word.word}.eaf" for word in words]
+    assert run(["spell", "fit", *files, "-o", "m.json", "--times", "t.csv", "--quiet"]) == 0
+    for found, word in zip(read_times("t.csv"), words, strict=True):
+        assert found.word == word.word
+        assert found.holds_s == pytest.approx(word.holds_s, abs=0.0015)
+        assert found.transitions_s == pytest.approx(word.transitions_s, abs=0.0015)
 
 
 def _rows(page: str) -> list[tuple[str, list[float]]]:

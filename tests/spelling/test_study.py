@@ -134,6 +134,16 @@ def test_holm_corrects_the_smallest_p_most() -> None:
     assert rows[0].p_holm <= rows[1].p_holm <= rows[2].p_holm
 
 
+def test_types_that_always_differ_by_the_same_have_no_t_test() -> None:
+    counts = np.array([[5, 3, 9], [6, 4, 7], [9, 7, 8], [2, 1, 1]], dtype=float)
+    assert [(d.first, d.second) for d in t_tests(("a", "b", "c"), counts[:3])] == [
+        ("a", "c"),
+        ("b", "c"),
+    ]
+    assert len(t_tests(("a", "b", "c"), counts)) == 3  # a and b differ by 2, 2, 2 and 1
+    assert t_tests(("a", "b", "c"), counts[:1]) == []
+
+
 def test_the_sample_size_has_its_power() -> None:
     """Simulated: so many choices tell .6 from .5 in about four of five studies."""
     from scipy.stats import binom, norm

@@ -28,7 +28,7 @@ from azee.spelling.timing.letter_poses import LetterPoses, rmsd
 from azee.spelling.timing.model import DRAWN, TimingModel
 from azee.spelling.timing.published import Style
 from azee.spelling.timing.schedule import Timing, duration_s, schedule
-from azee.spelling.timing.timed_word import TimedWord
+from azee.spelling.timing.timed_word import TimedWord, TimesError
 from azee.spelling.timing.validation import (
     SCHEMES,
     Errors,
@@ -41,6 +41,8 @@ from azee.spelling.timing.validation import (
 Array = NDArray[np.float64]
 Told = Callable[[str], None]
 
+LEAST_WORDS = 5
+"""Fewer say nothing about words that are held out."""
 SIZES = (1.0, 0.8, 0.5, 0.3)
 """Shares of the data that figure 4.6 learns from."""
 
@@ -126,8 +128,11 @@ def evaluate(
 
     Args: style: of these words. others: words in the other style, for its facts. repeated: words
         that a text repeats. told: hears what is being measured.
+    Raises: TimesError: there are too few words to learn from some of them.
     """
     words = model.words
+    if len({word.word for word in words}) < LEAST_WORDS:
+        raise TimesError(f"{LEAST_WORDS} different words are needed to measure a model")
     holds: dict[HoldName, dict[Scheme, Errors]] = {}
     for name in HOLD_NAMES:
         for scheme in SCHEMES:
@@ -162,7 +167,7 @@ def evaluate(
         *_word_error_facts(words_s),
     ]
     if model.origin != DRAWN:
-        facts = [replace(fact, given=False) for fact in facts]
+        facts = [replace(fact, given=False, reason="") for fact in facts]  # of what was drawn
     return Evaluation(
         model.origin, words, facts, holds, constant, by_feature, by_size, metrics, words_s
     )

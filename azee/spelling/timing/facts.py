@@ -70,10 +70,13 @@ def hold_facts(words: Sequence[TimedWord], style: Style) -> Iterator[Fact]:
         of = f"{style} holds, {size}{'+' if size == 5 else ''} letters"
         yield close(f"{of}: mean", mean_s, float(means.mean()), 0.005, " s", given=True)
         yield close(f"{of}: σ", deviation_s, float(means.std()), 0.005, " s", given=True)
+    faster = doubles_faster(words)
+    if np.isnan(faster):
+        return
     yield close(
         f"{style}: words with doubles are faster by",
         100 * theirs.DOUBLES_FASTER[style],
-        100 * doubles_faster(words),
+        100 * faster,
         5,
         " %",
         given=True,

@@ -88,6 +88,22 @@ def test_words_that_cannot_be_aligned_are_refused() -> None:
         aligned("CAB", np.zeros((10, 18)), RATE, POSES)
 
 
+@settings(max_examples=25)
+@given(st.text("ABCDE", min_size=1, max_size=5), st.integers(0, 3), st.integers(0, 1000))
+def test_any_movement_has_some_times(word: str, kind: int, seed: int) -> None:
+    """A hand that stands still, jumps or wanders spells badly, but every hold has its place."""
+    rng = np.random.default_rng(seed)
+    frames = (
+        np.zeros((150, 18)),
+        rng.normal(0, 1, (150, 18)),
+        np.cumsum(rng.normal(0, 0.1, (150, 18)), axis=0),
+        np.repeat(POSES.of(rng.choice(list("ABCDE"), 15)), 10, axis=0),
+    )[kind]
+    found, start_s = aligned(word, frames, RATE, POSES)
+    assert found.word == word
+    assert -0.1 < start_s < start_s + found.duration_s < 150 / RATE + 0.1
+
+
 def test_metrics_are_as_printed() -> None:
     a, b = np.array([0.0, 1.0, -1.0]), np.array([0.0, 3.0, 0.0])
     assert rmsd(a, b) == pytest.approx(np.sqrt(5 / 3))

@@ -98,22 +98,21 @@ def _ends(
     ends = [[float(begin), float(end)] for begin, end in bounds]
     middles = [(begin + end) // 2 for begin, end in bounds]
     for index, (a, b) in enumerate(pairwise(word)):
-        if a != b:
-            way = _way(speed, middles[index], middles[index + 1])
-            ends[index][1], ends[index + 1][0] = way
+        way_begin, way_end = _way(speed, middles[index], middles[index + 1])
+        way_begin, way_end = (
+            max(way_begin, middles[index] + 0.5),
+            min(way_end, middles[index + 1] - 0.5),
+        )
+        if a != b and way_end - way_begin >= 1.0:
+            ends[index][1], ends[index + 1][0] = way_begin, way_end
     reach = round(REACH_S * rate_hz)
-    for index, first, last in (
-        (0, max(0, middles[0] - reach), middles[0]),
-        (-1, middles[-1], min(len(speed) - 1, middles[-1] + reach)),
-    ):
-        if speed[first : last + 1].max() > MOVING * speed[middles[index]]:
-            way = _way(speed, first, last)
-            ends[index][index] = way[index + 1]
+    first, last = middles[0], middles[-1]
+    before, after = max(0, first - reach), min(len(speed) - 1, last + reach)
+    if speed[before : first + 1].max() > MOVING * speed[first]:
+        ends[0][0] = min(_way(speed, before, first)[1], first - 0.5)
+    if speed[last : after + 1].max() > MOVING * speed[last]:
+        ends[-1][1] = max(_way(speed, last, after)[0], last + 0.5)
     _part_doubles(word, ends, DOUBLE_S * rate_hz)
-    for hold in ends:
-        if hold[1] - hold[0] < 1.0:  # two ways without a stop between them
-            middle = (hold[0] + hold[1]) / 2
-            hold[:] = middle - 0.5, middle + 0.5
     return [(begin, end) for begin, end in ends]
 
 

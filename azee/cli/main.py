@@ -32,6 +32,8 @@ from azee.cli.retarget import retarget
 from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
+from azee.cli.spell import spell
+from azee.cli.study import study
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
@@ -59,6 +61,8 @@ azee.add_command(manifest)
 azee.add_command(rig)
 azee.add_command(retarget)
 azee.add_command(repl)
+azee.add_command(spell)
+azee.add_command(study)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

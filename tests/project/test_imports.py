@@ -66,6 +66,20 @@ MAY_IMPORT: dict[str, set[str]] = {
     },
     "azee.motion": set(),
     "azee.wording": set(),
+    "azee.spelling": set(),
+    "azee.spelling.study": {"numpy", "scipy"},
+    "azee.spelling.study.server": {"azee.spelling.study", "starlette", "jinja2"},
+    "azee.spelling.study.report": {"azee.spelling.study", "numpy", "matplotlib", "jinja2"},
+    "azee.spelling.timing": {"azee.clip", "numpy", "scipy"},
+    "azee.spelling.timing.recordings": {
+        *("azee.corpus.annotations", "azee.spelling.timing", "numpy"),
+    },
+    "azee.spelling.timing.fitting": {"azee.spelling.timing", "numpy", "sklearn"},
+    "azee.spelling.timing.validation": {
+        *("azee.spelling.timing", "numpy", "sklearn", "threadpoolctl"),
+    },
+    "azee.spelling.timing.evaluation": {"azee.spelling.timing", "numpy", "threadpoolctl"},
+    "azee.spelling.timing.figures": {"azee.spelling.timing", "numpy", "matplotlib"},
     "azee.quality": {
         *("azee.clip", "azee.motion", "azee.score", "azee.wording"),
         *("azee_solver", "azee_rig", "numpy"),
@@ -96,6 +110,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.notebook": {*OURS, "numpy", "PIL"},
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
     "azee.cli": {*OURS, "click", "rich"},
+    "azee.cli.study": {*OURS, "click", "uvicorn"},
     "azee": OURS,
 }
 """By the longest prefix of the importing module. A package may always import from itself."""

@@ -22,6 +22,8 @@ HEAVY = (
     "prompt_toolkit",
     "rich",
     "scipy",
+    "sklearn",
+    "starlette",
     "trimesh",
 )
 SCRIPT = """
@@ -41,6 +43,9 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("rig", "--help"): set(),
     ("corpus", "stats", "--help"): set(),
     ("elan", "compare", "--help"): set(),
+    ("spell", "--help"): set(),
+    ("study", "--help"): set(),
+    ("spell", "timing", "word"): {"numpy"},
     ("rig", "sites", "--format", "json"): {"numpy"},
     ("check", "--quiet", "text.azee"): {"lark"},
     ("check", "--format", "json", "text.azee"): {"lark"},

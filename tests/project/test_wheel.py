@@ -25,6 +25,8 @@ def test_the_wheel_holds_four_packages_with_their_data(tmp_path: Path) -> None:
     assert tops == {"azee", "azee_grammar", "azee_rig", "azee_solver"}
     for name in (
         "azee/py.typed",
+        "azee/spelling/study/templates/page.html",
+        "azee/spelling/timing/data/normal.json",
         "azee_grammar/azee.lark",
         "azee_grammar/data/azee.tables.json",
         "azee_grammar/rules/core/not-but.azee",

@@ -1,0 +1,1 @@
+"""Fingerspelling: when its letters happen, and whether people like to watch it."""

@@ -1,0 +1,1 @@
+"""Which of several animations people find most natural: the study's pages, answers, analysis."""

@@ -12,7 +12,7 @@ from azee.assist.place import Place
 from azee.lang.azop import NO_DEFAULT
 from azee.lang.native import Native, Operand
 from azee.lang.registry import NATIVES
-from azee.lang.rule import Rule
+from azee.lang.rule import STATUSES, Rule
 from azee.lang.sync_shape import RULES
 from azee.lang.values import Kind
 from azee.score.score import CHANNELS
@@ -21,6 +21,7 @@ from azee_grammar import vocabulary
 _ENTRIES = {
     "meaning": "what the rule says",
     "source": "who described it, and where",
+    "status": f"how far its form is testimony: {', '.join(STATUSES)}",
     "example": "an expression that shows it",
 }
 

@@ -31,9 +31,20 @@ INDENT = 12
     metavar="TEXT",
     help="Only rules with TEXT in their name, meaning, source or arguments.",
 )
+@click.option(
+    "--status",
+    metavar="STATUS",
+    help="Only rules whose form is published, read-off, inferred, placeholder or judged.",
+)
 @library_option
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
-def rules(name: str | None, search: str | None, libraries: Sequence[Path], form: str) -> int:
+def rules(
+    name: str | None,
+    search: str | None,
+    status: str | None,
+    libraries: Sequence[Path],
+    form: str,
+) -> int:
     """List the rules that ship, or show NAME: meaning, arguments, source, an example.
 
     With --library the rules of the libraries in a folder too: those that can be read, then what is
@@ -41,13 +52,14 @@ def rules(name: str | None, search: str | None, libraries: Sequence[Path], form:
 
     Exit codes: 0 done, 1 no such rule or mistakes in a library, 2 wrong use.
     """
-    if name is not None and search is not None:
-        raise click.UsageError("NAME shows one rule; --search lists some")
+    if name is not None and (search is not None or status is not None):
+        raise click.UsageError("NAME shows one rule; --search and --status list some")
+    _known_status(status)
     added, mistakes = _added(libraries)
     known = {**_shipped(), **added}
-    chosen = _chosen(known, name, search)
+    chosen = _of_status(_chosen(known, name, search), status)
     if not any(chosen.values()):
-        mistakes = [_none(known, name, search), *mistakes]
+        mistakes = [_none(known, name, search, status), *mistakes]
     if form == "json":
         found = [_as_json(rule) for rules in chosen.values() for rule in rules]
         show_json({"diagnostics": as_json(mistakes), "rules": found})
@@ -81,10 +93,28 @@ def _chosen(
     }
 
 
-def _none(known: Mapping[str, list[Rule]], name: str | None, search: str | None) -> Diagnostic:
+def _known_status(status: str | None) -> None:
+    from azee.lang.rule import STATUSES
+
+    if status is not None and status not in STATUSES:
+        raise click.UsageError(f"`{status}` is no status; there are {', '.join(STATUSES)}")
+
+
+def _of_status(found: Mapping[str, list[Rule]], status: str | None) -> dict[str, list[Rule]]:
+    return {
+        library: [r for r in rules if status is None or r.entry("status") == status]
+        for library, rules in found.items()
+    }
+
+
+def _none(
+    known: Mapping[str, list[Rule]], name: str | None, search: str | None, status: str | None
+) -> Diagnostic:
     """Say that nothing was found."""
     if name is None:
-        return Diagnostic("unknown-rule", f"no rule speaks of `{search}`", None)
+        spoken = "" if search is None else f" speaks of `{search}`"
+        told = "" if status is None else f"{' and' if spoken else ''} has the status {status}"
+        return Diagnostic("unknown-rule", f"no rule{spoken}{told}", None)
     return _unknown(name.removeprefix(":"), [r.name for found in known.values() for r in found])
 
 
@@ -154,7 +184,7 @@ def _shown(rule: Rule, libraries: Sequence[Path]) -> Iterator[str]:
 
     yield f":{rule.name}"
     yield from _field("library", rule.library or "")
-    for entry in ("meaning", "source"):
+    for entry in ("meaning", "source", "status"):
         if text := rule.entry(entry):
             yield from _field(entry, text)
     for i, parameter in enumerate(rule.defaults):
@@ -172,6 +202,7 @@ def _as_json(rule: Rule) -> dict[str, Any]:
         "library": rule.library,
         "meaning": rule.entry("meaning"),
         "source": rule.entry("source"),
+        "status": rule.entry("status"),
         "arguments": [
             {
                 "name": parameter.name,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -16,6 +16,15 @@ from azee_grammar.syntax import Application, Definition, Expr, OperatorName
 if TYPE_CHECKING:
     from azee.lang.resolve import Resolving
     from azee.lang.scope import Scope
+
+STATUSES: Mapping[str, str] = {
+    "published": "its form is printed",
+    "read-off": "its form was read off a published picture or film",
+    "inferred": "its form follows a description",
+    "placeholder": "its form is ours, and nobody's testimony",
+    "judged": "signers have judged its form",
+}
+"""How much of a rule's form is testimony: the texts of the entry `'status`."""
 
 
 @dataclass(eq=False)

@@ -13,7 +13,7 @@ from formats import schema
 from azee.cli.main import run
 from azee.lang.library import shipped_library
 from azee.lang.program import evaluate_expression
-from azee.lang.rule import Rule
+from azee.lang.rule import STATUSES, Rule
 from azee_grammar.library import shipped_names
 
 SHIPPED = [
@@ -35,7 +35,7 @@ def test_a_rule_tells_its_meaning_source_and_arguments(
 ) -> None:
     assert run(["rules", rule.name]) == 0
     words = " ".join(capsys.readouterr().out.split())
-    for entry in ("meaning", "source"):
+    for entry in ("meaning", "source", "status"):
         text = rule.entry(entry)
         assert text, f"{rule.name} has no {entry}"
         assert " ".join(text.split()) in words
@@ -77,6 +77,22 @@ def test_a_search_finds_by_meaning_without_accents(capsys: pytest.CaptureFixture
 def test_a_search_in_vain_says_so(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["rules", "--search", "zeppelin"]) == 1
     assert capsys.readouterr().err == "error[unknown-rule]: no rule speaks of `zeppelin`\n\n"
+
+
+@pytest.mark.parametrize("status", STATUSES)
+def test_a_status_lists_its_rules(status: str, capsys: pytest.CaptureFixture[str]) -> None:
+    wanted = {rule.name for rule in SHIPPED if rule.entry("status") == status}
+    assert run(["rules", "--status", status, "--format", "json"]) == (0 if wanted else 1)
+    listed = json.loads(capsys.readouterr().out)["rules"]
+    assert {rule["name"] for rule in listed} == wanted
+    assert {rule["status"] for rule in listed} <= {status}
+
+
+def test_a_status_that_does_not_exist_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["rules", "--status", "guessed"]) == 2
+    assert "`guessed` is no status; there are published," in capsys.readouterr().err
+    assert run(["rules", "--status", "judged", "--search", "chat"]) == 1
+    assert "no rule speaks of `chat` and has the status judged" in capsys.readouterr().err
 
 
 def test_a_folder_adds_its_libraries(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

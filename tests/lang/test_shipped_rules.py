@@ -8,7 +8,7 @@ import pytest
 from evaluations import constraints, group, problems, program, times, value
 
 from azee.lang.library import shipped_library
-from azee.lang.rule import Rule
+from azee.lang.rule import STATUSES, Rule
 from azee.lang.values import ConstraintsValue, ListValue, ScoreValue
 from azee.score.score import Group, Key, leaves
 from azee_grammar.library import shipped_names
@@ -57,6 +57,7 @@ def test_the_shipped_texts_are_sound() -> None:
 def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     assert rule.entry("meaning")
     assert rule.entry("source")
+    assert rule.entry("status") in STATUSES
     text = _application(rule)
     found = value(text)
     assert isinstance(found, ScoreValue | ConstraintsValue | ListValue)

@@ -115,12 +115,18 @@ PATHS: tuple[Path, ...] = (
 )
 CONSTRAINTS: tuple[Constraint, ...] = (
     Place(TIP, RIGHT_SPACE),
+    Place(TIP, RIGHT_SPACE, within_m=0.0625),
+    Place(TIP, RIGHT_SPACE, 0.125, within_m=0.0625),
     Orient(BoneAxis.NRM, PALM, Relation.ALONG, Opp(UP)),
+    Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP, math.radians(25)),
+    Orient(BoneAxis.DIR, PALM, Relation.ACROSS, UP, math.radians(25)),
     Look(Vec(0.25, 0.0, 1.0)),
     LookAt(VTranslate(CHIN, Vec(0.25, 0.0, 1.0))),
     Morph("index_bend", S, 0.5),
+    Morph("index_bend", S, 0.5, math.radians(30)),
     Rotate(HEAD, UP, math.radians(10)),
     Trill(PALM, UP, 5.0, math.radians(12)),
+    Trill(PALM, UP, 5.0, math.radians(30), math.radians(15), math.radians(90), 2.0),
     Transpath(TIP, Arc(Vec(0.0, 0.125, 0.0))),
 )
 

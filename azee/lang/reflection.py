@@ -7,6 +7,7 @@ about `a` by φ becomes one about Ma by −φ.
 
 from __future__ import annotations
 
+import math
 import re
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields, is_dataclass, replace
@@ -130,13 +131,25 @@ class Mirror(Change):
         return _SWAPPED_PLACES.get(place, place)
 
     def constraint(self, constraint: Constraint) -> Constraint:
-        """Return the mirror image; rotations change their sense, trills go to both sides alike."""
+        """Return the mirror image; rotations change their sense.
+
+        So do trills that start or go farther to one side; the others go to both alike.
+        """
         changed: Constraint
         match constraint:
             case Morph(name=name, side=None):
                 changed = replace(constraint, name=_other_morph(name))
             case Rotate(angle_rad=angle):
                 changed = replace(self.rebuilt(constraint), angle_rad=-angle)
+            case Trill(amplitude_rad=there, back_rad=back, phase_rad=phase) if (
+                phase or back is not None
+            ):
+                changed = replace(
+                    self.rebuilt(constraint),
+                    amplitude_rad=constraint.other_rad,
+                    back_rad=None if back is None else there,
+                    phase_rad=(phase + math.pi) % (2.0 * math.pi),
+                )
             case Place() | Orient() | Look() | LookAt() | Morph() | Trill() | Transpath():
                 changed = self.rebuilt(constraint)
         return changed

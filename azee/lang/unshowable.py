@@ -106,12 +106,13 @@ def _beyond_body(constraint: Constraint, dominant: Side) -> Iterator[tuple[str, 
                 "a turn is 360°; `trill` lets a bone go to and fro, `circle` leads a site around",
             )
         case Trill():
-            if abs(constraint.amplitude_rad) > MOST_TURN_RAD / 2 * _ROUNDING:
+            widest = max(constraint.amplitude_rad, constraint.other_rad, key=abs)
+            if abs(widest) > MOST_TURN_RAD / 2 * _ROUNDING:
                 yield (
-                    f"no bone goes {math.degrees(constraint.amplitude_rad):g}° to either side",
+                    f"no bone goes {math.degrees(widest):g}° to either side",
                     "`'amp` is the angle to one side, 12° unless said",
                 )
-            if constraint.frequency_hz > MOST_HZ:
+            if constraint.cycles is None and constraint.frequency_hz > MOST_HZ:
                 yield (
                     f"no body shows {constraint.frequency_hz:g} oscillations a second",
                     f"people reach fewer than {MOST_HZ:g}; `'freq` is 5 unless said",
@@ -121,7 +122,14 @@ def _beyond_body(constraint: Constraint, dominant: Side) -> Iterator[tuple[str, 
 
 
 def _beyond_speed(constraint: Constraint, duration_s: float) -> Iterator[tuple[str, str]]:
-    """Yield what is said about circles that are too fast, with the remedy."""
+    """Yield what is said about circles and counted trills that are too fast, with the remedy."""
+    if isinstance(constraint, Trill) and constraint.cycles is not None and duration_s > 0.0:
+        hz = constraint.hz(duration_s)
+        if hz > MOST_HZ:
+            yield (
+                f"no body shows {hz:g} oscillations a second",
+                f"people reach fewer than {MOST_HZ:g}: ask for fewer, or give the block more time",
+            )
     for turns_hz in _turn_rates(constraint, duration_s):
         if turns_hz > MOST_HZ:
             yield (

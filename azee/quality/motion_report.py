@@ -290,8 +290,9 @@ def _trill(task: TimedTask, trill: Trill, shortfall: float, fps: float) -> Const
     A frame rate shows frequencies below half of it (Nyquist 1928, Shannon 1949).
     """
     tolerance = TOLERANCE["rad"]
-    if trill.frequency_hz > fps / 2:
-        shown = f"no {fps:g} frames a second can show {trill.frequency_hz:g} oscillations"
+    hz = trill.hz(float(task.interval.duration))
+    if hz > fps / 2:
+        shown = f"no {fps:g} frames a second can show {hz:g} oscillations"
         return _result(task, trill.amplitude_rad, "rad", tolerance, shown)
     reason = None if shortfall <= tolerance else "the limits of its joints are in the way"
     return _result(task, shortfall, "rad", tolerance, reason)

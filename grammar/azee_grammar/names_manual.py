@@ -27,6 +27,10 @@ _KINDS = {
         "Alternatives for the same movements or for parts of them.",
     ),
     "skeletal": ("Movements of fingers, hands and trunk", "Weight 0 is the neutral posture."),
+    "own-skeletal": (
+        "Further movements of fingers",
+        "These names are ours (O). Negative weights of the single fingers go the other way.",
+    ),
     "legacy-facial": ("Older names of movements of the face", "Published expressions use them."),
     "legacy-skeletal": (
         "Older names of movements of the hand",

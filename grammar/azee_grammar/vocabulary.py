@@ -51,7 +51,10 @@ class SiteEntry:
 
 @dataclass(frozen=True, slots=True)
 class MorphEntry:
-    """A morph: `kind` is skeletal, facial, facial-alternative, legacy-skeletal or legacy-facial."""
+    """A morph.
+
+    `kind` is skeletal, own-skeletal, facial, facial-alternative, legacy-skeletal or legacy-facial.
+    """
 
     kind: str
     description: str

@@ -25,6 +25,10 @@ if TYPE_CHECKING:
     from azee_rig.rig import BoneNodes, Rig, RigSite
 
 
+TOUCHING = ("fingers_together", "fingers_crossed")
+"""Morphs whose angles press fingers together; these move apart until they just touch."""
+
+
 class BindingError(Exception):
     """A rig lacks what a constraint names.
 
@@ -93,18 +97,38 @@ class Binding:
             self._together[morphs] = self._added(morphs)
         return self._together[morphs].copy()
 
+    def yielding(self, constraints: Iterable[Constraint]) -> dict[int, float]:
+        """Coordinates that soft morphs move and no exact one does, and by how far each may yield.
+
+        Radians; the largest bound where soft morphs share a coordinate.
+        """
+        bounds: dict[int, float] = {}
+        exact: set[int] = set()
+        for morph in constraints:
+            if isinstance(morph, Morph) and self.is_skeletal(morph):
+                for v in self.preset(morph):
+                    bounds[v] = max(bounds.get(v, 0.0), morph.within_rad)
+                    if not morph.within_rad and morph.weight:
+                        exact.add(v)
+        return {v: bound for v, bound in bounds.items() if bound and v not in exact}
+
     def _added(self, morphs: Iterable[Morph]) -> dict[int, float]:
         total: dict[int, float] = {}
+        touching: set[int] = set()
         for morph in morphs:
             if self.is_skeletal(morph):
-                for v, angle in self.preset(morph).items():
+                preset = self.preset(morph)
+                for v, angle in preset.items():
                     total[v] = total.get(v, 0.0) + angle
+                if morph.name.startswith(TOUCHING) and morph.weight:
+                    touching.update(preset)
         if not total:
             return total
         from azee_solver.handshape import fitted, straight
 
         names = self.rig.coordinates.names
-        return fitted(self.rig, {v: straight(names[v]) + a for v, a in total.items()})
+        asked = {v: straight(names[v]) + a for v, a in total.items()}
+        return fitted(self.rig, asked, frozenset(touching))
 
     def has(self, constraint: Constraint) -> bool:
         """Whether the rig has everything that a constraint names."""

@@ -21,6 +21,7 @@ from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 from azee_solver.options import SolveOptions
 from azee_solver.program import Cost, Program
+from azee_solver.residuals import EDGE_COST
 from azee_solver.tape import Tape
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ class Body:
     limits: tuple[Array, Array] | None = None
     anatomy: Anatomy = field(init=False)
     obstacles: Obstacles = field(init=False)
+    yielding: Mapping[int, float] = field(init=False)
     _weights: dict[bool, tuple[Array, Array, float, Mapping[int, int], Mapping[int, float]]] = (
         field(init=False, default_factory=dict)
     )
@@ -59,6 +61,8 @@ class Body:
     def __post_init__(self) -> None:
         self.anatomy = anatomy(self.rig.chain, self.rig.coordinates)
         self.obstacles = Obstacles(self.evaluator.binding, self.anatomy, self.constraints)
+        bounds = self.evaluator.binding.yielding(self.constraints)
+        self.yielding = {v: bound for v, bound in bounds.items() if v in self.presets}
 
     def relaxed(self, reference: Array) -> Body:
         """Return the body without collision, handshapes and joint-limit cost."""
@@ -96,6 +100,8 @@ class Body:
         keep[list(follows)] *= FOLLOWING_STIFFNESS
         preset = list(self.presets)
         keep[preset], comfort[preset] = options.tolerance.angle_rad**-2, 0.0
+        for v, bound in self.yielding.items():
+            keep[v] = EDGE_COST / bound**2
         loose = {v: leader for v, leader in follows.items() if v not in self.presets}
         comfort[list(loose)] = 0.0
         half = EYE_RANGE_RAD / block.COMFORTABLE

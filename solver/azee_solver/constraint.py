@@ -6,6 +6,7 @@ text can be checked without loading a solver.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import TypeAlias
@@ -47,23 +48,26 @@ class Place(_Constraint):
     """`place SITE POINT`: the site lies at the point.
 
     `distance_m` lies along the outward normal where the point is a site, in any direction from a
-    free point. `contact` lets the surfaces touch there and exempts them from collision.
+    free point. `contact` lets the surfaces touch there and exempts them from collision. It is met
+    up to `within_m` away, and drawn to the middle.
     """
 
     site: Site
     point: Point
     distance_m: float = 0.0
     contact: bool = False
+    within_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Orient(_Constraint):
-    """`orient 'dir|'nrm BONE 'along|'across VECTOR`."""
+    """`orient 'dir|'nrm BONE 'along|'across VECTOR`: met up to `within_rad` off."""
 
     axis: BoneAxis
     bone: Bone
     relation: Relation
     vector: Vector
+    within_rad: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,11 +86,15 @@ class LookAt(_Constraint):
 
 @dataclass(frozen=True, slots=True)
 class Morph(_Constraint):
-    """`morph 'name [side] w`: facial shapes and skeletal presets; negative weights are legal."""
+    """`morph 'name [side] w`: facial shapes and skeletal presets; negative weights are legal.
+
+    A skeletal one yields to contacts by up to `within_rad` in each joint.
+    """
 
     name: str
     side: Side | None
     weight: float
+    within_rad: float = 0.0
 
     def key(self, dominant: Side) -> str:
         """Name in the morph table, such as `index_bend_R`."""
@@ -95,12 +103,31 @@ class Morph(_Constraint):
 
 @dataclass(frozen=True, slots=True)
 class Trill(_Constraint):
-    """`trill BONE AXIS`: a small rapid oscillation of a bone about an axis, while it lasts."""
+    """`trill BONE AXIS`: a small rapid oscillation of a bone about an axis, while it lasts.
+
+    The angle goes between `amplitude_rad` about the axis and `back_rad` against it, the same where
+    it is None. It starts in the middle, or at `phase_rad` of a cycle. `cycles`: how often while it
+    lasts, instead of a frequency.
+    """
 
     bone: Bone
     axis: Vector
     frequency_hz: float
     amplitude_rad: float
+    back_rad: float | None = None
+    phase_rad: float = 0.0
+    cycles: float | None = None
+
+    @property
+    def other_rad(self) -> float:
+        """How far the bone turns against the axis."""
+        return self.amplitude_rad if self.back_rad is None else self.back_rad
+
+    def hz(self, duration_s: float) -> float:
+        """Oscillations a second of a trill that lasts so long."""
+        if self.cycles is None:
+            return self.frequency_hz
+        return self.cycles / duration_s if duration_s > 0 else math.inf
 
 
 @dataclass(frozen=True, slots=True)

@@ -265,16 +265,16 @@ class Evaluator:
         among: Iterable[Constraint],
     ) -> tuple[Array, LengthOrAngle]:
         match constraint:
-            case Place(site, point, distance):
+            case Place(site, point, distance, within_m=within):
                 gap = paths.length(self.site(site, frames) - self.target(constraint, frames, phase))
                 if not isinstance(point, SitePoint):
                     gap = np.abs(gap - self.scale * distance)
-                return np.asarray(gap), "m"
-            case Orient(axis, bone, relation, vector):
+                return beyond(gap, self.scale * within), "m"
+            case Orient(axis, bone, relation, vector, within):
                 between = angle(self.axis(bone, axis, frames), self.vector(vector, frames))
                 if relation is Relation.ACROSS:
                     between = np.abs(between - np.pi / 2)
-                return between, "rad"
+                return beyond(between, within), "rad"
             case Look(vector):
                 wanted = self.vector(vector, frames)
                 off = [angle(self.gaze(eye, frames)[1], wanted) for eye in EYES]
@@ -295,7 +295,7 @@ class Evaluator:
                 whole = self.binding.presets([*among] or [constraint])
                 own = self.binding.preset(constraint)
                 off = [np.abs(q[..., v] - whole[v]) for v in own]
-                return np.max(np.stack(off), axis=0), "rad"
+                return beyond(np.max(np.stack(off), axis=0), constraint.within_rad), "rad"
             case Morph() | Trill() | Transpath():
                 raise ValueError(f"no posture meets a {type(constraint).__name__}")
 
@@ -326,6 +326,11 @@ def zero_rotation(chain: Chain, nodes: BoneNodes) -> Array:
         if node == nodes.origin_node:
             return np.asarray(rotation)
         node = int(chain.parents[node])
+
+
+def beyond(miss: Array, within: float) -> Array:
+    """By how much misses are greater than what a constraint allows, (…,); NaN stays."""
+    return np.asarray(np.maximum(miss - within, 0.0) if within else miss)
 
 
 def angle(a: Array, b: Array) -> Array:

@@ -126,7 +126,11 @@ class GroupSearch:
         options = body.options
         frames = body.frames(q)
         tape = Tape(body.evaluator, frames, body.anatomy.moved_by(free))
-        self.residuals: Residuals = lower(tape, tasks, options.tolerance, factors or {})
+        # A trunk leans for what is outside a bound, never for its middle.
+        drawn = not free & body.anatomy.of(Part.TRUNK)
+        self.residuals: Residuals = lower(
+            tape, tasks, options.tolerance, factors or {}, drawn=drawn
+        )
         rows = [*self.residuals.rows, *self._level_head(tape, free)]
         self.collisions = (
             body.obstacles.for_problem(free, unsettled - free)

@@ -12,8 +12,9 @@ the same wherever the hand is.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -61,48 +62,95 @@ MARGIN_M, PALM_MARGIN_M = 0.003, 0.006
 """Capsules hold most of the skin, not all: so far a thumb stays away from fingers and palm."""
 
 
+FINGERS = ("index", "middle", "ring", "little")
+WIDTH: Mapping[int, float] = {2: 0.82, 3: 1.08}
+"""Half the width of a finger's phalanges over the radii of their capsules, which hold depth and
+joints too: 0.75 to 0.86 and 1.05 to 1.2 on the four bodies that ship."""
+
+
 def straight(coordinate: str) -> float:
     """Return the angle of a coordinate such as `index_R_1.flexion` in a straight digit, radians."""
     return STRAIGHT.get(coordinate.replace("_L_", "_").replace("_R_", "_"), 0.0)
 
 
-def fitted(rig: Rig, presets: Mapping[int, float]) -> dict[int, float]:
+def fitted(
+    rig: Rig, presets: Mapping[int, float], touching: frozenset[int] = frozenset()
+) -> dict[int, float]:
     """Return the angles of presets, by coordinate, with thumbs beside or on what they would enter.
 
-    Args: presets: angles that morphs ask for, radians, by coordinate.
+    Args: presets: angles that morphs ask for, radians, by coordinate. touching: coordinates of
+        fingers that these angles press into each other, and that give way until they touch.
     """
     out = dict(presets)
     hands = anatomy(rig.chain, rig.coordinates).of(Part.HAND)
     for side in ("L", "R"):
-        own = tuple(
-            (v, angle)
-            for v, angle in sorted(presets.items())
-            if v in hands and f"_{side}_" in rig.coordinates.names[v]
-        )
-        out |= _fitted(rig, side, own)
+        own = {v for v in presets if v in hands and f"_{side}_" in rig.coordinates.names[v]}
+        if pressed := tuple(sorted(own & touching)):
+            out |= _side_by_side(rig, side, tuple((v, out[v]) for v in sorted(own)), pressed)
+        out |= _fitted(rig, side, tuple((v, out[v]) for v in sorted(own)))
     return out
 
 
 @lru_cache(maxsize=512)
 def _fitted(rig: Rig, side: str, presets: tuple[tuple[int, float], ...]) -> Mapping[int, float]:
     """Angles of the thumb's presets on one hand that keep it out of the hand."""
-    limits = rig.coordinates
-    free = [v for v, _ in presets if limits.names[v].startswith(f"thumb_{side}_")]
+    free = [v for v, _ in presets if rig.coordinates.names[v].startswith(f"thumb_{side}_")]
     if not free:
         return {}
+    structure = anatomy(rig.chain, rig.coordinates)
+    found = Obstacles(Binding(rig, Side.RIGHT), structure, []).for_problem(free, ())
+    return _pushed_apart(rig, presets, free, _within(rig, side, found))
+
+
+@lru_cache(maxsize=128)
+def _side_by_side(
+    rig: Rig, side: str, presets: tuple[tuple[int, float], ...], free: tuple[int, ...]
+) -> Mapping[int, float]:
+    """Angles at which fingers of one hand that presets press together touch.
+
+    At their roots neighbours share flesh, so first phalanges do not count. Fingers that bend for it
+    cross: they lie on each other, by their depth, and give way by bending. The others give way to
+    the side, and the less the more they are bent: there a deviation would only roll them.
+    """
+    names, radius = rig.capsules.names, rig.capsules.radius
+    angles, coordinates = dict(presets), rig.coordinates
+    bends = tuple(v for v in free if coordinates.names[v].endswith("flexion"))
+    crossing = bool(bends)
+    for v in () if crossing else free:
+        knuckle = coordinates.index[coordinates.names[v].replace("deviation", "flexion")]
+        angles[v] *= max(0.0, math.cos(angles.get(knuckle, 0.0)))
+    ends = [(f"{finger}_{side}_", j) for finger in FINGERS for j in WIDTH]
+    half = {
+        names.index(f"{finger}{j}"): radius[names.index(f"{finger}{j}")]
+        * (1.0 if crossing else WIDTH[j])
+        for finger, j in ends
+    }
+    pairs = [(i, k) for i, k in combinations(half, 2) if names[i][:-1] != names[k][:-1]]
+    reach = np.array([half[i] + half[k] for i, k in pairs])
+    pushed = _pushed_apart(rig, angles.items(), bends or free, Collisions(np.array(pairs), reach))
+    return {v: angles[v] for v in free} | dict(pushed)
+
+
+def _pushed_apart(
+    rig: Rig,
+    presets: Iterable[tuple[int, float]],
+    free: Sequence[int],
+    collisions: Collisions,
+) -> Mapping[int, float]:
+    """Return the angles nearest to presets at which capsules do not overlap, if they do."""
+    limits = rig.coordinates
     q = np.array(limits.idle)
     for v, angle in presets:
         q[v] = angle
     np.clip(q, limits.lower, limits.upper, out=q)
-    structure = anatomy(rig.chain, limits)
-    found = Obstacles(Binding(rig, Side.RIGHT), structure, []).for_problem(free, ())
+    moving = anatomy(rig.chain, limits).moved_by(free)
     program = Program(
         rig,
         q,
         free,
-        Tape(Evaluator(rig, Side.RIGHT), rig.chain.frames(q), structure.moved_by(free)),
+        Tape(Evaluator(rig, Side.RIGHT), rig.chain.frames(q), moving),
         [],
-        _within(rig, side, found),
+        collisions,
         Cost(q, np.full(len(q), KEEP), np.zeros(len(q)), OVERLAP),
     )
     x = program.gauss_newton(q[program.free], rounds=ROUNDS, tolerance=TOLERANCE)

@@ -97,7 +97,7 @@ class Layout:
             k.ZERO: chain.zero,
             k.DOF_SCALE: chain.dof_scale,
             k.NUMBERS: np.zeros(5 * entries),
-            k.ROW_NUMBERS: np.zeros(2 * len(self.rows)),
+            k.ROW_NUMBERS: np.zeros(3 * len(self.rows)),
             k.CAPSULE_ENDS: ends,
             k.PAIR_REACH: phase.reach,
             k.BALLS: phase.ball_centre,

@@ -103,21 +103,30 @@ def problem_text(constraints: Iterable[Constraint]) -> str:
 
 def _halves(constraint: Constraint) -> tuple[str, str]:
     match constraint:
-        case Place(site, point, distance, contact):
+        case Place(site, point, distance, contact, within):
             options = f" 'dist {number_text(distance)}" if distance else ""
             options += " 'contact" if contact else ""
+            options += f" 'within {number_text(within)}" if within else ""
             return f"place {part_text(site)}", f"{point_text(point)}{options}"
-        case Orient(axis, bone, relation, vector):
+        case Orient(axis, bone, relation, vector, within):
             subject = f"orient '{axis.value} {part_text(bone)}"
-            return subject, f"'{relation.value} {vector_text(vector)}"
+            options = f" 'within {_degrees(within)}" if within else ""
+            return subject, f"'{relation.value} {vector_text(vector)}{options}"
         case Look(vector):
             return "look", vector_text(vector)
         case LookAt(point):
             return "lookat", point_text(point)
-        case Morph(name, side, weight):
-            return f"morph '{name}" + (f" {side.value}" if side else ""), number_text(weight)
-        case Trill(bone, axis, frequency_hz, amplitude_rad):
-            options = f"'freq {number_text(frequency_hz)} 'amp {_degrees(amplitude_rad)}"
+        case Morph(name, side, weight, within):
+            soft = f" 'soft {_degrees(within)}" if within else ""
+            subject = f"morph '{name}" + (f" {side.value}" if side else "")
+            return subject, f"{number_text(weight)}{soft}"
+        case Trill(bone, axis, frequency_hz, amplitude_rad, back_rad, phase_rad, cycles):
+            pace = "freq", frequency_hz
+            if cycles is not None:
+                pace = "cycles", cycles
+            options = f"'{pace[0]} {number_text(pace[1])} 'amp {_degrees(amplitude_rad)}"
+            options += "" if back_rad is None else f" 'back {_degrees(back_rad)}"
+            options += f" 'phase {_degrees(phase_rad)}" if phase_rad else ""
             return f"trill {part_text(bone)}", f"{vector_text(axis)} {options}"
         case Rotate(bone, axis, angle_rad):
             return f"rotate {part_text(bone)}", f"{vector_text(axis)} {_degrees(angle_rad)}"

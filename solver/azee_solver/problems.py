@@ -92,7 +92,8 @@ class ProblemBuilder:
 
     def __init__(self, tasks: Sequence[Task], binding: Binding, anatomy: Anatomy) -> None:
         self.binding, self.anatomy = binding, anatomy
-        self._presets = frozenset(binding.presets(task.constraint for task in tasks))
+        asked = [task.constraint for task in tasks]
+        self._presets = frozenset(binding.presets(asked)) - frozenset(binding.yielding(asked))
         self._asked = tuple(
             _Asked(i, *_asks(task.constraint, binding), order)
             for i, (task, order) in enumerate(zip(tasks, _places(tasks), strict=True))

@@ -6,7 +6,7 @@ import ctypes
 import math
 import operator
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,13 +43,17 @@ _evaluate = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_uint, _POINTER, _POINTER,
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A residual between two entries of a tape, in the kernels' kinds, times √weight."""
+    """A residual between two entries of a tape, in the kernels' kinds, times √weight.
+
+    slack: how large it may be before it costs anything, for all kinds but `MEET`.
+    """
 
     kind: int
     a: int
     b: int
     weight: float
     distance_m: float = 0.0
+    slack: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -125,7 +129,9 @@ class Program:
             self.section(k.BOUNDS)[:] = np.concatenate([self.lower, self.upper])
         self.section(k.Q)[:] = q
         self.section(k.NUMBERS)[:] = numbers
-        self.section(k.ROW_NUMBERS)[:] = [x for r in self.rows for x in (r.weight, r.distance_m)]
+        self.section(k.ROW_NUMBERS)[:] = [
+            x for r in self.rows for x in (r.weight, r.distance_m, r.slack)
+        ]
         self.section(k.OVERLAP_WEIGHT)[0] = cost.overlap
         self.section(k.POSITIONS)[:] = tape.frames.positions.ravel()
         self.section(k.ROTATIONS)[:] = tape.frames.rotations.ravel()
@@ -202,6 +208,7 @@ class Program:
                 out[n] = abs(sum(map(operator.mul, values[row.a], values[row.b])))
             else:
                 out[n] = abs(out[n] - row.distance_m)
+            out[n] = max(out[n] - row.slack, 0.0)
         return out
 
 
@@ -223,5 +230,5 @@ def _used(
     codes = tuple(
         (code, new[a], new[b], node) for code, a, b, node in (tape.codes[t] for t in order)
     )
-    kept = [Row(r.kind, new[r.a], new[r.b], r.weight, r.distance_m) for r in rows]
+    kept = [replace(row, a=new[row.a], b=new[row.b]) for row in rows]
     return kept, codes, [x for t in order for x in tape.numbers[t]]

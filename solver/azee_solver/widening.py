@@ -31,7 +31,8 @@ def _least(moment: Moment, problem: Problem) -> Reach:
     if not options.inertia:
         return Reach.OWN
     moved = frozenset(np.flatnonzero(moment.start != body.reference).tolist())
-    moved &= problem.steps[Reach.ALL] - options.fixed - frozenset(body.presets)
+    exact = frozenset(body.presets) - frozenset(body.yielding)
+    moved &= problem.steps[Reach.ALL] - options.fixed - exact
     return next(r for r in Reach if moved <= problem.steps[r] or r is Reach.ALL)
 
 

@@ -13,8 +13,24 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from azee.clip.clip import Clip
-from azee.export.pictures.storyboard import MOST, SAME_RAD, SIZE, VIEWS, telling, write_png
+from azee.export.pictures.storyboard import (
+    MOST,
+    SAME_RAD,
+    SIZE,
+    VIEWS,
+    telling,
+    telling_frames,
+    write_png,
+)
 from azee_rig.rig import Rig
+
+
+def test_a_clip_without_moments_shows_how_far_it_goes(signer: Rig) -> None:
+    c = signer.coordinates
+    postures = np.tile(c.idle, (3, 1))
+    postures[1, c.index["head.flexion"]] += 0.3
+    clip = Clip(np.array([0.0, 0.5, 1.0]), postures, (), np.zeros((3, 0)))
+    assert telling_frames(clip, [], MOST) == [0, 1]
 
 
 @pytest.mark.slow

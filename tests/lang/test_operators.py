@@ -155,10 +155,24 @@ def test_bones_and_sites_take_side_and_phalanx(expression: str, expected: object
             "orient 'nrm !palm(s) 'across ^up",
             Orient(BoneAxis.NRM, PALM, Relation.ACROSS, UP),
         ),
+        ("place @I_TIP(s) ^Mssp 'within .03", Place(TIP, MSSP, within_m=0.03)),
+        (
+            "orient 'nrm !palm(s) 'along ^up 'within 45",
+            Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP, math.pi / 4),
+        ),
+        ("morph 'index_bend s 1 'soft", Morph("index_bend", Side.STRONG, 1.0, math.radians(40))),
+        (
+            "morph 'index_bend s 1 'soft 90",
+            Morph("index_bend", Side.STRONG, 1.0, math.pi / 2),
+        ),
         ("look ^fwd", Look(FWD)),
         ("lookat @I_TIP(s)", LookAt(SitePoint(TIP))),
         ("trill !palm(s) ^up", Trill(PALM, UP, 5.0, math.radians(12))),
         ("trill !palm(s) ^up s", Trill(PALM, UP, 5.0, math.radians(12))),
+        (
+            "trill !palm(s) ^up 'amp 30 'back 0 'phase 90 'cycles 2",
+            Trill(PALM, UP, 5.0, math.pi / 6, 0.0, math.pi / 2, 2.0),
+        ),
         (
             "trill !palm(s) ^up 'amp 90 'freq 6",
             Trill(PALM, UP, 6.0, math.pi / 2),

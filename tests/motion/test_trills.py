@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from azee.animation import animate
 from azee.lang.library import shipped_library
 from azee.lang.program import evaluate_expression
+from azee.lang.reflection import MIRROR
 from azee.lang.rule_example import example_of
-from azee.motion.overlay.trill import FADE_S
+from azee.motion.overlay.trill import FADE_S, Oscillation
+from azee.motion.tasks.requirement import Requirement
+from azee.motion.tasks.timed_task import TimedTask
+from azee.score.interval import Interval
 from azee.score.score import Key, Score, leaves
 from azee_grammar.library import shipped_names
 from azee_rig.rig import Rig
 from azee_solver.constraint import Trill
-from azee_solver.geometry import Side
+from azee_solver.geometry import Bone, Side, Vec
 
 SEEN_M = 0.03
 FPS = 120.0
@@ -53,3 +63,55 @@ def test_trills_of_rules_are_seen_at_the_finger_tips(signer: Rig) -> None:
                 at = signer.sites[f"{tip}_R"].point(frames)
                 ways.append(np.linalg.norm(at[:, None] - at[None], axis=-1).max())
             assert np.median(ways) > SEEN_M, (name, ways)
+
+
+def angles(trill: Trill, duration_s: int = 1) -> NDArray[np.float64]:
+    """Return the angles of a trill of a block, degrees, at a thousand instants a second."""
+    whole = Interval(Fraction(0), Fraction(duration_s))
+    task = TimedTask(
+        Requirement(trill, ("A",), None, whole, whole, 0),
+        "arm_R", frozenset(), frozenset(), frozenset(), frozenset(), False,
+    )  # fmt: skip
+    times = np.arange(0, 1000 * duration_s + 1) / 1000
+    return np.degrees(Oscillation(task, np.zeros(1), 1.0).angles(times))
+
+
+PALM, UP = Bone("palm", Side.STRONG), Vec(0.0, 1.0, 0.0)
+
+
+@given(st.integers(1, 8), st.integers(0, 60), st.integers(0, 60), st.integers(1, 3))
+def test_a_trill_goes_so_often_between_its_two_ends(
+    cycles: int, amp: int, back: int, duration_s: int
+) -> None:
+    trill = Trill(PALM, UP, 5.0, math.radians(amp), math.radians(back), 0.0, cycles * duration_s)
+    found = angles(trill, duration_s)
+    assert found.max() <= amp + 1e-9
+    assert found.min() >= -back - 1e-9
+    inner = found[200:-200] - 0.5 * (amp - back)
+    if amp + back > 0:
+        crossings = int(np.count_nonzero(np.diff(np.sign(inner[np.abs(inner) > 1e-9])) != 0))
+        assert abs(crossings - 2 * cycles * (duration_s - 0.4)) <= 1
+
+
+def test_a_trill_starts_at_its_phase() -> None:
+    early, late = (
+        angles(replace(Trill(PALM, UP, 2.0, math.radians(20)), phase_rad=phase))
+        for phase in (0.0, math.pi / 2)
+    )
+    np.testing.assert_allclose(late[200:600], early[325:725], atol=1e-9)
+
+
+def test_two_trills_half_a_cycle_apart_are_opposite() -> None:
+    one = Trill(PALM, UP, 3.0, math.radians(20))
+    np.testing.assert_allclose(angles(one), -angles(replace(one, phase_rad=math.pi)), atol=1e-9)
+
+
+@given(st.integers(0, 60), st.integers(0, 60), st.integers(1, 359))
+def test_a_mirrored_trill_turns_to_the_other_side(amp: int, back: int, phase_deg: int) -> None:
+    trill = Trill(
+        PALM, UP, 3.0, math.radians(amp), math.radians(back), math.radians(phase_deg)
+    )  # fmt: skip
+    other = MIRROR.constraint(trill)
+    assert isinstance(other, Trill)
+    assert other.bone.side is Side.WEAK
+    np.testing.assert_allclose(angles(other), -angles(trill), atol=1e-9)

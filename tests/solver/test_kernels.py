@@ -99,6 +99,24 @@ def test_gradient_of_places(expr: Point, kind: int) -> None:
     check_gradient(case.program([row]), case.q)
 
 
+@pytest.mark.parametrize("kind", [block.PERPENDICULAR, block.AT_DISTANCE])
+def test_gradient_beyond_a_dead_zone(kind: int) -> None:
+    case = Case(2)
+    a, b = case.tape.axis(PALM_S, BoneAxis.DIR), case.tape.unit(case.tape.vector(VECTORS[5]))
+    check_gradient(case.program([Row(kind, a, b, 2.0, slack=0.05)]), case.q)
+
+
+@pytest.mark.parametrize("kind", [block.PERPENDICULAR, block.AT_DISTANCE])
+def test_nothing_costs_in_a_dead_zone(kind: int) -> None:
+    case = Case(2)
+    a, b = case.tape.axis(PALM_S, BoneAxis.DIR), case.tape.unit(case.tape.vector(VECTORS[5]))
+    program = case.program([Row(kind, a, b, 2.0, slack=2.5)])
+    gradient = np.empty(len(program.free))
+    assert program(case.q[program.free], gradient) == 0.0
+    assert not gradient.any()
+    assert program.lengths() == [0.0]
+
+
 @pytest.mark.parametrize("distance", [0.0, 0.1])
 def test_gradient_of_a_site_that_rides_on_two_nodes(distance: float) -> None:
     case = Case(8)

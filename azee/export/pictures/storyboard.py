@@ -48,9 +48,12 @@ def telling_frames(
 ) -> list[int]:
     """Choose, of the frames at some moments (seconds), those that differ most from each other.
 
+    Of all frames where there are no moments, as in a text that only shakes a head.
+
     Args: second_rad: the turn that a second between two postures counts as.
     """
     frames = sorted({int(np.abs(clip.times - moment).argmin()) for moment in moments})
+    frames = frames or [*range(len(clip.times))]
     late = second_rad * clip.times[:, None]
     shapes = np.hstack([clip.coordinates, FACE_RAD * clip.unit_weights, late])[frames]
     return [frames[i] for i in telling(shapes, most)]

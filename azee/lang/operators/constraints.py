@@ -40,15 +40,30 @@ TRILL_HZ = 5.0
 TRILL_DEG = 12.0
 """What a trill does unless its text says otherwise; ours, nothing is published."""
 
+SOFT = "soft"
+SOFT_DEG = 40.0
+"""How far a joint of a soft morph yields to what is in its way, unless its text says otherwise."""
+
 Constraints = tuple[Constraint, ...]
 
 
-def _place(at: Occurrence, site: Site, point: Point, *, dist: float, contact: bool) -> Constraints:
-    return (Place(site, point, dist, contact, origin=at.origin),)
+def _place(
+    at: Occurrence, site: Site, point: Point, *, dist: float, contact: bool, within: float
+) -> Constraints:
+    if within < 0:
+        raise at.fault("number-range", "`'within` is a length: 0 or more metres", "bound")
+    return (Place(site, point, dist, contact, within, origin=at.origin),)
 
 
-def _orient(at: Occurrence, axis: str, bone: Bone, relation: str, vector: Vector) -> Constraints:
-    return (Orient(BoneAxis(axis), bone, Relation(relation), vector, origin=at.origin),)
+def _orient(
+    at: Occurrence, axis: str, bone: Bone, relation: str, vector: Vector, *, within: float
+) -> Constraints:
+    most = 90 if Relation(relation) is Relation.ACROSS else 180
+    if not 0 <= within < most:
+        message = f"`'within` is an angle between 0 and {most} degrees"
+        raise at.fault("number-range", message, "bound", help="all directions are less than that")
+    bound = math.radians(within)
+    return (Orient(BoneAxis(axis), bone, Relation(relation), vector, bound, origin=at.origin),)
 
 
 def _look(at: Occurrence, vector: Vector) -> Constraints:
@@ -68,14 +83,40 @@ def _transpath(at: Occurrence, site: Site, path: Path) -> Constraints:
 
 
 def _trill(
-    at: Occurrence, bone: Bone, axis: Vector, side: Side | None = None, *, freq: float, amp: float
+    at: Occurrence,
+    bone: Bone,
+    axis: Vector,
+    side: Side | None = None,
+    *,
+    freq: float | None,
+    cycles: float | None,
+    amp: float,
+    back: float | None,
+    phase: float,
 ) -> Constraints:
     if side is not None and bone.side is not side:
         message = "the side of a trill is that of its bone"
         raise at.fault("bad-side", message, "side", help="leave it out: the bone has one")
-    if freq <= 0:
+    if freq is not None and freq <= 0:
         raise at.fault("number-range", "the frequency of a trill is greater than 0", "frequency")
-    return (Trill(bone, axis, freq, math.radians(amp), origin=at.origin),)
+    if cycles is not None and cycles <= 0:
+        raise at.fault("number-range", "a trill has more than 0 cycles", "cycles")
+    if cycles is not None and freq is not None:
+        message = "a trill has either `'freq` or `'cycles`"
+        help_ = "`'cycles` counts them while the block lasts: leave one out"
+        raise at.fault("number-range", message, "cycles", help=help_)
+    return (
+        Trill(
+            bone,
+            axis,
+            TRILL_HZ if freq is None else freq,
+            math.radians(amp),
+            None if back is None else math.radians(back),
+            math.radians(phase % 360),
+            cycles,
+            origin=at.origin,
+        ),
+    )
 
 
 def _morph(at: Occurrence, values: tuple[Value, ...]) -> Constraints:
@@ -99,6 +140,10 @@ def _morph(at: Occurrence, values: tuple[Value, ...]) -> Constraints:
             message = f"the morph `'{name.content}` has no weight"
             raise at.fault("missing-value", message, "item", start)
         i += 1
+        bound, i = _yielding(at, values, i)
+        if name.content == SOFT:
+            message = "`'soft` stands behind the weight of a morph"
+            raise at.fault("unknown-morph", message, "item", start)
         if (problem := _unknown_morph(name.content, at.span_of("item", start))) is not None:
             raise problem
         entry = vocabulary.morph(name.content)
@@ -114,12 +159,34 @@ def _morph(at: Occurrence, values: tuple[Value, ...]) -> Constraints:
                 start,
                 help=f"write `'{name.content} s {weight.content:g}`: s, w, L or R",
             )
-        morphs.append(Morph(name.content, side, weight.content, origin=at.origin))
+        if bound and "skeletal" not in _kind(name.content):
+            message = f"`'{name.content}` moves the face, which yields to nothing"
+            raise at.fault("unknown-keyword", message, "item", start, help="leave out `'soft`")
+        morphs.append(Morph(name.content, side, weight.content, bound, origin=at.origin))
     return tuple(morphs)
 
 
+def _yielding(at: Occurrence, values: tuple[Value, ...], i: int) -> tuple[float, int]:
+    """Read `'soft [DEGREES]` behind a weight: how far a morph yields, radians, and what is next."""
+    if i >= len(values) or not (isinstance(v := values[i], SymbolValue) and v.content == SOFT):
+        return 0.0, i
+    i += 1
+    if i >= len(values) or not isinstance(bound := values[i], NumberValue):
+        return math.radians(SOFT_DEG), i
+    if not 0 < bound.content <= 180:
+        message = "a morph yields by more than 0 and at most 180 degrees"
+        raise at.fault("number-range", message, "item", i)
+    return math.radians(bound.content), i + 1
+
+
+def _kind(morph: str) -> str:
+    """Return the kind of a morph that AZee has, written with or without its side."""
+    entry = vocabulary.MORPHS.get(morph) or vocabulary.MORPHS[f"{morph}_R"]
+    return entry.kind
+
+
 def _unknown_morph(name: str, span: Span) -> Fault | None:
-    if vocabulary.morph(name) is not None:
+    if name == SOFT or vocabulary.morph(name) is not None:
         return None
     message = f"AZee has no morph `'{name}`"
     instead = vocabulary.WITHOUT_MORPH.get(name)
@@ -186,6 +253,10 @@ def _native(
     )
 
 
+def _within(meaning: str) -> Option:
+    return Option("within", meaning, Operand("bound", "the greatest miss", (Kind.NUMBER,)), 0.0)
+
+
 _SITE = Operand("site", "such as `@I_TIP(s)`", (Kind.SITE,))
 _POINT = Operand("point", "a point", (Kind.POINT,))
 _BONE = Operand("bone", "such as `!palm(s)`", (Kind.BONE,))
@@ -205,6 +276,7 @@ OPERATORS = (
                 "dist", "metres from the point", Operand("distance", "metres", (Kind.NUMBER,)), 0.0
             ),
             Option("contact", "the surfaces may touch here"),
+            _within("metres from where the site should be, anywhere inside which it is met"),
         ),
     ),
     _native(
@@ -218,7 +290,8 @@ OPERATORS = (
             _VECTOR,
         ),
         _orient,
-        "orient 'nrm !palm(s) 'along ^down",
+        "orient 'nrm !palm(s) 'along ^down 'within 25",
+        options=(_within("degrees off, anywhere inside which it is met"),),
     ),
     _native(
         "look",
@@ -237,11 +310,12 @@ OPERATORS = (
     _native(
         "morph",
         "Shapes of the face and presets of the hands: a name, a side where it takes one, a weight, "
-        "and again. Negative weights are legal.",
+        "and again. Negative weights are legal. With `'soft` behind its weight, joints of a hand "
+        f"yield to contacts, each by {SOFT_DEG:g} degrees or as many as follow.",
         (
             Operand(
                 "item",
-                "`'NAME [SIDE] WEIGHT`",
+                "`'NAME [SIDE] WEIGHT ['soft [DEGREES]]`",
                 (Kind.SYMBOL, Kind.SIDE, Kind.NUMBER),
                 rest=True,
                 least=2,
@@ -267,13 +341,28 @@ OPERATORS = (
                 "freq",
                 f"oscillations per second, {TRILL_HZ:g} unless said",
                 Operand("frequency", "Hz", (Kind.NUMBER,)),
-                TRILL_HZ,
+            ),
+            Option(
+                "cycles",
+                "oscillations while the block lasts, instead of a frequency",
+                Operand("cycles", "how many", (Kind.NUMBER,)),
             ),
             Option(
                 "amp",
                 f"degrees to either side, {TRILL_DEG:g} unless said",
                 Operand("amplitude", "degrees", (Kind.NUMBER,)),
                 TRILL_DEG,
+            ),
+            Option(
+                "back",
+                "degrees against the axis, where it goes farther to one side; 0 for one side alone",
+                Operand("amplitude", "degrees", (Kind.NUMBER,)),
+            ),
+            Option(
+                "phase",
+                "degrees of a cycle at its start: 90 at one end, 180 on the way back",
+                Operand("phase", "degrees", (Kind.NUMBER,)),
+                0.0,
             ),
         ),
     ),

@@ -1,10 +1,10 @@
 """Trills: small rapid oscillations, added to the movement that the other constraints fix.
 
-A bone turns about the trill's axis by the angle amplitude · sin 2πft, faded in and out inside the
-block and clamped to the limits. An axis means what it means to `rotate`: without bones or sites in
-it, it has the components x, dir and nrm of the parent bone's frame; otherwise it is a direction of
-the signer's frame. Where a bone's own joint cannot turn about the axis (a palm about its own
-length), the joint before it helps (the forearm turns).
+A bone turns about the trill's axis by the angle (a − b)/2 + (a + b)/2 · sin(2πft + φ), between a
+and −b, faded in and out inside the block and clamped to the limits. An axis means what it means to
+`rotate`: without bones or sites in it, it has the components x, dir and nrm of the parent bone's
+frame; otherwise it is a direction of the signer's frame. Where a bone's own joint cannot turn about
+the axis (a palm about its own length), the joint before it helps (the forearm turns).
 """
 
 from __future__ import annotations
@@ -55,8 +55,10 @@ class Oscillation:
         if fade <= 0:
             return np.zeros(len(times_s))
         envelope = minimum_jerk((times_s - start) / fade) * minimum_jerk((end - times_s) / fade)
-        wave = np.sin(2 * math.pi * trill.frequency_hz * (times_s - start))
-        return np.asarray(trill.amplitude_rad * envelope * wave)
+        passed = 2 * math.pi * trill.hz(end - start) * (times_s - start)
+        middle = 0.5 * (trill.amplitude_rad - trill.other_rad)
+        half = 0.5 * (trill.amplitude_rad + trill.other_rad)
+        return np.asarray(envelope * (middle + half * np.sin(passed + trill.phase_rad)))
 
 
 def oscillation(task: TimedTask, q: Array, evaluator: Evaluator) -> Oscillation:
@@ -110,7 +112,8 @@ def add_trills(
         clamped = float(np.max(np.abs(wanted - out[rows]), initial=0.0))
         constraint = trill.task.constraint
         assert isinstance(constraint, Trill)
-        not_turnable = (1.0 - trill.turnable) * constraint.amplitude_rad
+        widest = max(abs(constraint.amplitude_rad), abs(constraint.other_rad))
+        not_turnable = (1.0 - trill.turnable) * widest
         shortfalls[trill.task.rank] = max(clamped, not_turnable)
     return out, shortfalls
 

@@ -159,7 +159,10 @@ class FrameProblems:
         evaluator = self.monitor.evaluator
         rig = evaluator.rig
         idle = rig.coordinates.idle
-        presets = evaluator.binding.presets([t.constraint for t in now.tasks])
+        asked = [t.constraint for t in now.tasks]
+        presets = evaluator.binding.presets(asked)
+        for v in evaluator.binding.yielding(asked):
+            del presets[v]  # key postures have decided how far it yields
         body = Body(rig, evaluator, idle, presets, self.options, now.touches)
         count = len(now.tasks)
         tasks = {i: t.ik_task(time) for i, t in enumerate(now.tasks) if _has_rows(t)}
@@ -167,7 +170,7 @@ class FrameProblems:
         ranked = (*now.tasks, *(path.motion.task for path in now.paths))
         factors = {i: self.factors.get(task.rank, 1.0) for i, task in enumerate(ranked)}
         tape = self._tape(body.frames(idle))
-        residuals = lower(tape, tasks, self.options.tolerance, factors)
+        residuals = lower(tape, tasks, self.options.tolerance, factors, drawn=False)
         free = self._free(now, presets)
         nothing, comfort = np.zeros(len(idle)), np.full(len(idle), COMFORT * self.options.comfort)
         program = Program(
@@ -221,7 +224,8 @@ class FrameProblems:
             tape = self._tape(Frames(frames.positions[k], frames.rotations[k]))
             now = {i: problem.now.tasks[i].ik_task(times[t]) for i in moving}
             tasks = {**problem.tasks, **now}
-            numbers.append(used_entries(tape, lower(tape, tasks, self.options.tolerance, {}).rows))
+            asked = lower(tape, tasks, self.options.tolerance, {}, drawn=False).rows
+            numbers.append(used_entries(tape, asked))
         # What differs in one frame is filled in for all of them: they share one tape.
         differs = np.any(np.stack(numbers) != problem.program.tape_numbers, axis=(0, 2))
         differs[on_paths] = False

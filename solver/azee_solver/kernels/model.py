@@ -25,6 +25,7 @@ from azee_solver.block import (
     VALUES,
 )
 from azee_solver.kernels.objective import beyond_comfort, reference_error
+from azee_solver.kernels.residuals import beyond_slack
 from azee_solver.kernels.sections import along, matrix, part, stack
 from azee_solver.kernels.slopes import differentiate, lever
 
@@ -70,7 +71,7 @@ def gauss_newton(x, contacts, three, gradient, hessian, ints, reals):
     share = reals[ints[MISS_SHARE]]
     for r in range(rows.shape[0] // 3):
         kind, a, b = rows[3 * r], rows[3 * r + 1], rows[3 * r + 2]
-        weight = share * row_numbers[2 * r]
+        weight = share * row_numbers[3 * r]
         if kind == MEET:
             for i in range(3):
                 for v in range(n):
@@ -94,13 +95,15 @@ def gauss_newton(x, contacts, three, gradient, hessian, ints, reals):
             for i in range(3):
                 square += (values[a, i] - values[b, i]) ** 2
             gap = math.sqrt(square)
-            error = gap - row_numbers[2 * r + 1]
+            error = gap - row_numbers[3 * r + 1]
             if gap > SHORT:
                 for i in range(3):
                     part_of_gap = (values[a, i] - values[b, i]) / gap
                     for v in range(n):
                         row[v] += part_of_gap * (slopes[a, i, v] - slopes[b, i, v])
-        _add_square(row, error, weight, hessian, gradient)
+        error = beyond_slack(error, row_numbers[3 * r + 2])
+        if error != 0.0:
+            _add_square(row, error, weight, hessian, gradient)
     touching = part(reals, ints, CONTACTS)
     overlap_weight = reals[ints[OVERLAP_WEIGHT]]
     for c in range(contacts):

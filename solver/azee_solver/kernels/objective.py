@@ -68,7 +68,7 @@ def objective(x, gradient, wanted, ints, reals):
     residuals = (ints[ROWS + 1] - ints[ROWS]) // 3
     f = residual_cost(
         matrix(ints, ints, ROWS, residuals, 3),
-        matrix(reals, ints, ROW_NUMBERS, residuals, 2),
+        matrix(reals, ints, ROW_NUMBERS, residuals, 3),
         reals[ints[MISS_SHARE]],
         values,
         pulls,

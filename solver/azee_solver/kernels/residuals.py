@@ -113,6 +113,14 @@ def reverse_sweep(codes, numbers, values, pulls, forces, moments):
 
 
 @njit(**INNER)
+def beyond_slack(e, slack):
+    """Return how far a residual is beyond the dead zone of ± slack."""
+    if e > slack:
+        return e - slack
+    return e + slack if e < -slack else 0.0
+
+
+@njit(**INNER)
 def residual_cost(rows, row_numbers, share, values, pulls):
     """Sum of σ w e² over the residuals, and its pulls on the entries they compare."""
     f = 0.0
@@ -123,6 +131,7 @@ def residual_cost(rows, row_numbers, share, values, pulls):
             e = 0.0
             for i in range(3):
                 e += values[a, i] * values[b, i]
+            e = beyond_slack(e, row_numbers[k, 2])
             f += weight * e * e
             for i in range(3):
                 pulls[a, i] += 2.0 * weight * e * values[b, i]
@@ -136,7 +145,7 @@ def residual_cost(rows, row_numbers, share, values, pulls):
             factor = 2.0 * weight
         else:
             gap = math.sqrt(square)
-            e = gap - row_numbers[k, 1]
+            e = beyond_slack(gap - row_numbers[k, 1], row_numbers[k, 2])
             f += weight * e * e
             factor = 2.0 * weight * e / gap if gap > SHORT else 0.0
         for i in range(3):

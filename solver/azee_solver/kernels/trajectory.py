@@ -40,6 +40,7 @@ from azee_solver.block import (
 from azee_solver.kernels.band import factorise, solve
 from azee_solver.kernels.model import gauss_newton
 from azee_solver.kernels.objective import objective
+from azee_solver.kernels.residuals import beyond_slack
 from azee_solver.kernels.sections import along, matrix, part
 
 
@@ -64,7 +65,7 @@ def _frame(t, block, x, ref, keep, weight, counts, places, numbers, shares, hess
         posture[k, 0] = ref[free[k]]
         posture[k, 1] = keep[free[k]]
     rows = (ints[ROWS + 1] - ints[ROWS]) // 3
-    row_numbers = matrix(words, ints, ROW_NUMBERS, rows, 2)
+    row_numbers = matrix(words, ints, ROW_NUMBERS, rows, 3)
     for r in range(rows):
         row_numbers[r, 0] = weight[r]
     entries = matrix(words, ints, NUMBERS, (ints[CODES + 1] - ints[CODES]) // 4, 5)
@@ -98,7 +99,7 @@ def _largest_miss(ints, words):
     """Return the largest w e² of all rows at the point that was evaluated last."""
     count = (ints[ROWS + 1] - ints[ROWS]) // 3
     rows = matrix(ints, ints, ROWS, count, 3)
-    row_numbers = matrix(words, ints, ROW_NUMBERS, count, 2)
+    row_numbers = matrix(words, ints, ROW_NUMBERS, count, 3)
     values = matrix(words, ints, VALUES, (ints[CODES + 1] - ints[CODES]) // 4, 3)
     largest = 0.0
     for r in range(count):
@@ -108,9 +109,9 @@ def _largest_miss(ints, words):
             square += (values[a, i] - values[b, i]) ** 2
             dot += values[a, i] * values[b, i]
         if rows[r, 0] == PERPENDICULAR:
-            square = dot * dot
+            square = beyond_slack(dot, row_numbers[r, 2]) ** 2
         elif rows[r, 0] == AT_DISTANCE:
-            square = (math.sqrt(square) - row_numbers[r, 1]) ** 2
+            square = beyond_slack(math.sqrt(square) - row_numbers[r, 1], row_numbers[r, 2]) ** 2
         largest = max(largest, row_numbers[r, 0] * square)
     return largest
 

@@ -43,6 +43,7 @@ from azee.quality.likeness import likeness
 from azee.quality.measures import PenetrationSearch, block_times, peaks
 from azee.quality.motion_report import MotionReport, constraint_results, limit_excess
 from azee.quality.task_spans import task_spans
+from azee.score.provenance import Provenance
 from azee.score.score import Score
 from azee.score.stretch import paced
 from azee_rig.rig import Rig
@@ -68,7 +69,8 @@ class Animation:
     score: as performed; all times are those of its time line. key_times: of all key postures, on
     the clip's time line. lead_s: when the score's time line starts in the clip; before, the signer
     stands at rest and moves into the first key posture. tracks: which block keys
-    what, on the score's time line.
+    what, on the score's time line. provenance: whose testimony the rules of its text are; none for
+    a score that no text was given for.
     """
 
     score: Score
@@ -77,6 +79,7 @@ class Animation:
     key_times: tuple[float, ...]
     lead_s: float
     tracks: tuple[Track, ...] = ()
+    provenance: Provenance | None = None
 
 
 def animate(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from azee.motion.tasks.key_selection import Mode
     from azee.motion.timing.performed import Timing
     from azee.quality.motion_report import MotionReport
+    from azee.score.provenance import Provenance
     from azee.score.score import Score
     from azee_grammar.source import Source
     from azee_rig.rig import Rig
@@ -78,10 +79,16 @@ class Compilation:
         """
         return self.animation.report
 
+    @property
+    def provenance(self) -> Provenance | None:
+        """How far the forms of the rules in the text are known; none where there was no text."""
+        return self.animation.provenance
+
     def report_json(self) -> dict[str, object]:
-        """Return the report as JSON, with the messages about what the body lacks."""
+        """Return the report as JSON, with its provenance and messages about what the body lacks."""
         left_out = [{"code": d.code, "message": d.message} for d in self.left_out]
-        return {**self.report.as_json(), "left_out": left_out}
+        provenance = self.provenance.as_json() if self.provenance else None
+        return {**self.report.as_json(), "provenance": provenance, "left_out": left_out}
 
     def save_report(self, path: str | Path) -> None:
         """Write the report as JSON, as docs/formats.md describes it.
@@ -166,13 +173,14 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
             flat mode.
         tempo: how many times faster all is that is not `fixed`, such as 1.2.
     Raises: AZeeError: the text has mistakes, or has no such utterance; cannot-read: there is no
-            such file; rig-lacks-bone, rig-lacks-site, rig-lacks-morph: the rig lacks something
-            that the text names, and `strict_body` is set; clip-times: the
-            clip would have more than 500,000 frames.
+            such file; bad-manifest: that of a library cannot be read; rig-lacks-bone,
+            rig-lacks-site, rig-lacks-morph: the rig lacks something that the text names, and
+            `strict_body` is set; clip-times: the clip would have more than 500,000 frames.
         RigError: the rig does not exist or cannot be read. It is a ValueError.
         ValueError: an argument has a wrong value or type; the message says what is allowed.
     """
     from azee.lang.program import load
+    from azee.lang.provenance import provenance_of, written
     from azee_rig.load import load_rig
     from azee_rig.rig import Rig
 
@@ -197,6 +205,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
         strict_body=strict_body,
         timing=timing,
         tempo=tempo,
+        provenance=provenance_of(written(program, expression, utterance)),
     )
 
 
@@ -230,8 +239,11 @@ def perform(
     strict_body: bool = False,
     timing: Timing | None = None,
     tempo: float = 1.0,
+    provenance: Provenance | None = None,
 ) -> Compilation:
     """Make a body play a score. The options are those of `compile`.
+
+    Args: provenance: of the text that the score is of; it is stamped into files and the report.
 
     Raises: AZeeError: the rig lacks what the score names, and `strict_body` is set; `clip-times`:
         too many frames.
@@ -272,6 +284,7 @@ def perform(
         timing=timing,
         tempo=float(tempo),
     )
+    animation = replace(animation, provenance=provenance)
     unshown = tuple(beyond_frames(animation.score, float(fps)))
     return Compilation(animation.score, rig, animation, missing, unshown)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import errno
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -19,8 +20,17 @@ if TYPE_CHECKING:
     from azee.clip.clip import Clip
     from azee.export.track_rows import Row
     from azee.motion.tasks.tracks import Track
+    from azee.score.provenance import Provenance
     from azee.score.score import Score
     from azee_rig.rig import Rig
+
+
+@dataclass(frozen=True, slots=True)
+class ElanHeader:
+    """What an ELAN file says of itself: the film beside it, and whose testimony its rules are."""
+
+    media: Path | None = None
+    provenance: Provenance | None = None
 
 
 @contextmanager
@@ -60,6 +70,12 @@ def _glb(clip: Clip, rig: Rig, path: Path) -> None:
     from azee.export.formats.glb import write_glb
 
     write_glb(clip, rig, path)
+
+
+def _stamped_glb(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
+    from azee.export.formats.glb import write_glb
+
+    write_glb(animation.clip, rig, path, animation.provenance)
 
 
 def _bvh(clip: Clip, rig: Rig, path: Path) -> None:
@@ -110,28 +126,29 @@ def filming() -> Iterator[None]:
         raise AZeeError(Diagnostic("clip-times", str(error), None)) from error
 
 
-def _score_svg(score: Score, rows: Sequence[Row], media: Path | None, path: Path) -> None:
+def _score_svg(score: Score, rows: Sequence[Row], header: ElanHeader, path: Path) -> None:
     from azee.export.pictures.score_svg import write_svg
 
     write_svg(score, path, rows)
 
 
-def _score_png(score: Score, rows: Sequence[Row], media: Path | None, path: Path) -> None:
+def _score_png(score: Score, rows: Sequence[Row], header: ElanHeader, path: Path) -> None:
     from azee.export.pictures.score_png import write_score_png
 
     write_score_png(score, path, rows)
 
 
-def _score_eaf(score: Score, rows: Sequence[Row], media: Path | None, path: Path) -> None:
+def _score_eaf(score: Score, rows: Sequence[Row], header: ElanHeader, path: Path) -> None:
     from azee.export.formats.eaf import write_eaf
 
-    write_eaf(score, path, rows, media=media)
+    write_eaf(score, path, rows, media=header.media, provenance=header.provenance)
 
 
 def _svg(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
+    from azee.export.pictures.score_svg import write_svg
     from azee.export.track_rows import track_rows
 
-    _score_svg(score, track_rows(animation.tracks), None, path)
+    write_svg(score, path, track_rows(animation.tracks))
 
 
 def _eaf(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
@@ -144,7 +161,8 @@ def write_elan(score: Score, animation: Animation, path: Path, media: Path | Non
     from azee.export.track_rows import track_rows
 
     rows = track_rows(animation.tracks)
-    write_eaf(score, path, rows, lead_s=animation.lead_s, media=media)
+    known = animation.provenance
+    write_eaf(score, path, rows, lead_s=animation.lead_s, media=media, provenance=known)
 
 
 def _png(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
@@ -158,12 +176,16 @@ def _of_clip(write: ClipWriter) -> Writer:
 
 
 def save_score(
-    score: Score, path: str | Path, tracks: Sequence[Track] = (), media: Path | None = None
+    score: Score,
+    path: str | Path,
+    tracks: Sequence[Track] = (),
+    media: Path | None = None,
+    provenance: Provenance | None = None,
 ) -> None:
     """Draw a score or write it for ELAN; the suffix names the format: one of `SCORE_WRITERS`.
 
     Args: tracks: which blocks key which part of the body, where it was solved. media: the film
-        that an ELAN file shows beside the score.
+        that an ELAN file shows beside the score. provenance: of the text, for an ELAN file.
     Raises: AZeeError: cannot-write. ValueError: no format has that suffix.
     """
     from azee.export.track_rows import track_rows
@@ -172,11 +194,11 @@ def save_score(
     if write is None:
         raise ValueError(f"no format has the suffix of {path}; known are {' '.join(SCORE_WRITERS)}")
     with writing(path):
-        write(score, track_rows(tracks), media, Path(path))
+        write(score, track_rows(tracks), ElanHeader(media, provenance), Path(path))
 
 
 ClipWriter: TypeAlias = "Callable[[Clip, Rig, Path], None]"
-ScoreWriter: TypeAlias = "Callable[[Score, Sequence[Row], Path | None, Path], None]"
+ScoreWriter: TypeAlias = "Callable[[Score, Sequence[Row], ElanHeader, Path], None]"
 Writer: TypeAlias = "Callable[[Score, Rig, Animation, Path], None]"
 
 CLIP_WRITERS: dict[str, ClipWriter] = {".glb": _glb, ".bvh": _bvh, ".json": _json, ".npz": _npz}
@@ -189,6 +211,7 @@ SCORE_WRITERS: dict[str, ScoreWriter] = {
 """Formats of a score alone."""
 WRITERS: dict[str, Writer] = {
     **{suffix: _of_clip(write) for suffix, write in CLIP_WRITERS.items()},
+    ".glb": _stamped_glb,
     ".svg": _svg,
     ".png": _png,
     ".eaf": _eaf,
@@ -200,4 +223,8 @@ FILM_SUFFIXES = (".mp4", ".webm")
 """Suffixes of films, which take longer and need the extra `film`."""
 RENDER_SUFFIXES = (".png", *FILM_SUFFIXES)
 """Suffixes of what shows the body: pictures and films."""
+CHART_SUFFIXES = (".svg", ".png", ".pdf")
+"""Suffixes of charts of a corpus, which need the extra `charts`."""
+CORPUS_SUFFIXES = (".csv", ".json", *CHART_SUFFIXES)
+"""Suffixes of what the counts of a corpus can be written as."""
 WRITERS |= dict.fromkeys(FILM_SUFFIXES, _film)

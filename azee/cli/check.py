@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -17,6 +17,7 @@ from azee.wording import counted
 from azee_grammar.diagnostic import AZeeError, Severity
 
 if TYPE_CHECKING:
+    from azee.lang.written import Written
     from azee_grammar.diagnostic import Diagnostic
     from azee_rig.rig import Rig
 
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
 @library_option
 @click.option("--rig", metavar="R", help="Also look whether this body has all that is named.")
 @click.option("--strict-body", is_flag=True, help="What the body lacks is an error, not a warning.")
+@click.option(
+    "--trust", is_flag=True, help="Also count how far the forms of the rules applied are known."
+)
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
 @click.option("--quiet", is_flag=True, help="Only the exit code and the errors.")
 def check(
@@ -35,6 +39,7 @@ def check(
     libraries: Sequence[Path],
     rig: str | None,
     strict_body: bool,
+    trust: bool,
     form: str,
     quiet: bool,
 ) -> int:
@@ -46,26 +51,32 @@ def check(
         raise click.UsageError("-e sees the rules of one FILE")
     body = None if rig is None else load_body(rig)
     texts: Sequence[str | None] = files or [None]
-    found = [d for file in texts for d in _checked(file, expression, libraries, body, strict_body)]
+    applications: list[Written] = []
+    found: list[Diagnostic] = []
+    for file in texts:
+        try:
+            text = Text.read(file, expression, None, libraries)
+        except AZeeError as error:
+            found += error.diagnostics
+            continue
+        found += _checked(text, body, strict_body)
+        applications += text.applications if trust else ()
     if form == "json":
-        show_json({"diagnostics": as_json(found)})
+        known = {"provenance": _as_json(applications)} if trust else {}
+        show_json({"diagnostics": as_json(found), **known})
     else:
+        if trust:
+            click.echo("\n".join(_trusted(applications)))
         show(found)
         news(_summary(len(files), expression is not None, found), quiet=quiet)
     return FAULT if has_errors(found) else DONE
 
 
-def _checked(
-    file: str | None,
-    expression: str | None,
-    libraries: Sequence[Path],
-    body: Rig | None,
-    strict_body: bool,
-) -> Sequence[Diagnostic]:
+def _checked(text: Text, body: Rig | None, strict_body: bool) -> Sequence[Diagnostic]:
     """Return what is wrong with a text, then what is wrong with an expression that sees it."""
     found: Sequence[Diagnostic] = ()
     try:
-        program = Text.read(file, expression, None, libraries).program
+        program, expression = text.program, text.expression
         found = program.check()
         if has_errors(found) or (expression is None and body is None):
             return found
@@ -77,6 +88,25 @@ def _checked(
         return [*found, *chain.from_iterable(lacking)]
     except AZeeError as error:
         return [*found, *error.diagnostics]
+
+
+def _trusted(applications: Sequence[Written]) -> list[str]:
+    """Return the counts of statuses, the rules of each, and the libraries they are in."""
+    from azee.lang.provenance import names_by_status, provenance_of
+
+    provenance = provenance_of(applications)
+    names = names_by_status(applications)
+    lines = [f"  {status}: {', '.join(found)}" for status, found in names.items()]
+    for library in provenance.libraries:
+        changed = ", ".join(library.changed)
+        lines.append(f"  library {library.text}{' with changes in ' if changed else ''}{changed}")
+    return [provenance.text, *lines]
+
+
+def _as_json(applications: Sequence[Written]) -> dict[str, Any]:
+    from azee.lang.provenance import names_by_status, provenance_of
+
+    return {**provenance_of(applications).as_json(), "rules": names_by_status(applications)}
 
 
 def _summary(files: int, expression: bool, found: Sequence[Diagnostic]) -> str:

@@ -170,6 +170,7 @@ def compile_(
                     strict_body=strict_body,
                     timing=timing,
                     tempo=tempo,
+                    provenance=text.provenance,
                 )
             watch.split(made.report)
             for path in outputs:

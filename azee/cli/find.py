@@ -23,9 +23,15 @@ if TYPE_CHECKING:
 @click.argument("files", nargs=-1, required=True, metavar="FILE…")
 @library_option
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
+@click.option("--count", is_flag=True, help="Only how often: in each FILE, then in all.")
 @click.option("--quiet", is_flag=True, help="Do not tell how much was found.")
 def find(
-    template: str, files: Sequence[str], libraries: Sequence[Path], form: str, quiet: bool
+    template: str,
+    files: Sequence[str],
+    libraries: Sequence[Path],
+    form: str,
+    count: bool,
+    quiet: bool,
 ) -> int:
     """Print the expressions in each FILE (`-` is standard input) that TEMPLATE matches.
 
@@ -39,15 +45,20 @@ def find(
 
     wanted = Template.read(template)
     matches: list[Match] = []
+    counts: dict[str, int] = {}
     problems: list[Diagnostic] = []
     for file in files:
         found, wrong = _searched(wanted, file, libraries)
         matches += found
+        counts[file] = counts.get(file, 0) + len(found)
         problems += (problem for problem in wrong if problem not in problems)
     if form == "json":
-        show_json(
-            {"diagnostics": as_json(problems), "matches": [_as_json(match) for match in matches]}
-        )
+        listed = {"counts": counts} if count else {"matches": [_as_json(m) for m in matches]}
+        show_json({"diagnostics": as_json(problems), **listed})
+    elif count:
+        click.echo("".join(f"{n}\t{file}\n" for file, n in counts.items()), nl=False)
+        show(problems)
+        news(f"{len(matches)} found", quiet=quiet)
     else:
         click.echo("".join(f"{line}\n" for match in matches for line in _lines(match)), nl=False)
         show(problems)

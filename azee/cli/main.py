@@ -20,9 +20,12 @@ from azee.cli.check import check
 from azee.cli.clip import clip
 from azee.cli.compile import compile_
 from azee.cli.console import DONE, FAULT, INTERRUPTED, show
+from azee.cli.corpus import corpus
+from azee.cli.elan import elan
 from azee.cli.find import find
 from azee.cli.fmt import fmt
 from azee.cli.lsp import lsp
+from azee.cli.manifest import manifest
 from azee.cli.render import render
 from azee.cli.repl import repl
 from azee.cli.retarget import retarget
@@ -48,8 +51,11 @@ azee.add_command(score)
 azee.add_command(render)
 azee.add_command(clip)
 azee.add_command(find)
+azee.add_command(corpus)
+azee.add_command(elan)
 azee.add_command(lsp)
 azee.add_command(rules)
+azee.add_command(manifest)
 azee.add_command(rig)
 azee.add_command(retarget)
 azee.add_command(repl)

@@ -27,6 +27,7 @@ def outcome_lines(made: Compilation, written: Sequence[Path]) -> str:
         outcome(report) + (":" if fallen_short else ""),
         *map(_shortfall, fallen_short),
         *strains(report),
+        *([made.provenance.text] if made.provenance and made.provenance.applications else ()),
         *(f"wrote {path} ({size_of(path)})" for path in written),
     ]
     if not written:

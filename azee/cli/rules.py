@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from azee.cli.console import DONE, FAULT, as_json, show, show_json
+from azee.cli.rules_difference import show_difference
 from azee.cli.text import library_option
 from azee_grammar.diagnostic import Diagnostic, Severity
 
@@ -36,12 +37,20 @@ INDENT = 12
     metavar="STATUS",
     help="Only rules whose form is published, read-off, inferred, placeholder or judged.",
 )
+@click.option(
+    "--diff",
+    nargs=2,
+    metavar="A B",
+    help="Instead, how the rules of B differ from those of A; each is a library that ships, a "
+    "folder of rules or a manifest.",
+)
 @library_option
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
 def rules(
     name: str | None,
     search: str | None,
     status: str | None,
+    diff: tuple[str, str] | None,
     libraries: Sequence[Path],
     form: str,
 ) -> int:
@@ -52,6 +61,11 @@ def rules(
 
     Exit codes: 0 done, 1 no such rule or mistakes in a library, 2 wrong use.
     """
+    if diff is not None:
+        if name is not None or search is not None or status is not None or libraries:
+            raise click.UsageError("--diff compares two libraries and takes nothing beside it")
+        show_difference(*diff, form=form)
+        return DONE
     if name is not None and (search is not None or status is not None):
         raise click.UsageError("NAME shows one rule; --search and --status list some")
     _known_status(status)
@@ -102,7 +116,7 @@ def _known_status(status: str | None) -> None:
 
 def _of_status(found: Mapping[str, list[Rule]], status: str | None) -> dict[str, list[Rule]]:
     return {
-        library: [r for r in rules if status is None or r.entry("status") == status]
+        library: [r for r in rules if status is None or r.status == status]
         for library, rules in found.items()
     }
 

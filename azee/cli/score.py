@@ -73,13 +73,14 @@ def score(
         raise click.UsageError("--tracks is drawn: name a file with -o")
     check_media(media, outputs)
     check_outputs(outputs)
-    found = Text.read(file, expression, utterance, libraries).score(dominant)
+    text = Text.read(file, expression, utterance, libraries)
+    found = text.score(dominant)
     if not outputs:
         click.echo(tree(found), nl=False)
         return
     keyed = _tracks(found, rig, dominant, mode) if tracks else ()
     for path in outputs:
-        save_score(found, path, keyed, media)
+        save_score(found, path, keyed, media, text.provenance)
 
 
 def _tracks(found: Score, rig: str, dominant: Hand, mode: Mode) -> Sequence[Track]:

@@ -15,6 +15,8 @@ from azee.cli.number import Number
 if TYPE_CHECKING:
     from azee.compilation import Hand
     from azee.lang.program import Program
+    from azee.lang.written import Written
+    from azee.score.provenance import Provenance
     from azee.score.score import Score
     from azee_grammar.diagnostic import Diagnostic
 
@@ -129,6 +131,23 @@ class Text:
         from azee.compilation import score_of
 
         return score_of(self.program, self.expression, self.utterance, dominant)
+
+    @property
+    def applications(self) -> list[Written]:
+        """The applications of rules that are written in what is wanted."""
+        from azee.lang.provenance import written
+
+        return written(self.program, self.expression, self.utterance)
+
+    @property
+    def provenance(self) -> Provenance:
+        """How far the forms of the rules in what is wanted are known.
+
+        Raises: AZeeError: the manifest of a library cannot be read.
+        """
+        from azee.lang.provenance import provenance_of
+
+        return provenance_of(self.applications)
 
     @property
     def warnings(self) -> tuple[Diagnostic, ...]:

@@ -49,7 +49,7 @@ class Box:
 
 def title(name: str, score: Score) -> str:
     """Return the name of a block, with the rule that its score came from."""
-    rule = score.calls[0].rule if score.calls else ""
+    rule = score.calls[0].title if score.calls else ""
     if not name:
         return rule or type(score).__name__.lower()
     return f"{name} · {rule}" if rule and rule != name else name

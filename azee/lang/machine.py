@@ -98,7 +98,7 @@ class Machine:
         procedure = operator.procedure
         plain = not (procedure.names or operator.bound or given)
         if plain and procedure in self._results:
-            return _came_from(procedure, self._results[procedure], origin)
+            return _came_from(operator, self._results[procedure], origin)
         names = dict[str, Value](procedure.names)
         known = {**operator.bound, **given}
         depth = self.depth
@@ -115,14 +115,15 @@ class Machine:
             raise problem.through(operator.title, span) from None
         if plain:
             self._results[procedure] = value
-        return _came_from(procedure, value, origin)
+        return _came_from(operator, value, origin)
 
 
-def _came_from(procedure: Procedure, value: Value, origin: Origin) -> Value:
+def _came_from(operator: Applicable, value: Value, origin: Origin) -> Value:
     """Mark a score as the result of a rule."""
-    if procedure.rule is None or not isinstance(value, ScoreValue):
+    rule = operator.procedure.rule
+    if rule is None or not isinstance(value, ScoreValue):
         return value
-    score = came_from(value.content, Call(procedure.rule, origin))
+    score = came_from(value.content, Call(rule, origin, operator.handed_over))
     return ScoreValue(score, value.size, value.depth)
 
 
@@ -130,4 +131,4 @@ def operator_value(procedure: Procedure, bound: Mapping[str, Value]) -> Operator
     """Return a rule or an `azop` as a value, with some arguments given."""
     size = 1 + sum(v.size for v in bound.values())
     depth = 1 + max((v.depth for v in bound.values()), default=0)
-    return OperatorValue(Applicable(procedure, bound), size, depth)
+    return OperatorValue(Applicable(procedure, bound, handed_over=True), size, depth)

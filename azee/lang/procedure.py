@@ -34,10 +34,14 @@ class Procedure:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Applicable:
-    """A procedure as a value, with the arguments that were already given."""
+    """A procedure as a value, with the arguments that were already given.
+
+    handed_over: whether it was a value, such as `.nb-5`, before it was applied.
+    """
 
     procedure: Procedure
     bound: Mapping[str, Value]
+    handed_over: bool = False
 
     @property
     def title(self) -> str:

@@ -72,7 +72,7 @@ class Program:
     def utterances(self) -> tuple[UtteranceScore, ...]:
         """All utterances of the text, evaluated. Raises: AZeeError: all its mistakes."""
         self._require_sound(self.check())
-        judged = (self._judged(item) for item in self._items())
+        judged = (self._judged(item) for item in self.utterance_items())
         return tuple(score for score, _ in judged if score is not None)
 
     def score(self, utterance: int | None = None, dominant: Side = Side.RIGHT) -> Score:
@@ -102,7 +102,7 @@ class Program:
         for rule in self._own_rules():
             if rule.definition not in sound:
                 _ = rule.procedure
-        items = [item for item in self._items() if item not in sound]
+        items = [item for item in self.utterance_items() if item not in sound]
         found = [d for item in items for d in self.problems(item, dominant)]
         return _tidy((*self.found, *found, *self._rule_diagnostics()), self.source)
 
@@ -172,7 +172,8 @@ class Program:
     def _scores(self) -> dict[int, tuple[UtteranceScore | None, tuple[Diagnostic, ...]]]:
         return {}
 
-    def _items(self) -> Iterator[Utterance]:
+    def utterance_items(self) -> Iterator[Utterance]:
+        """Yield the utterances of the text as they are written, in order."""
         if own_name(self.file) is None:
             yield from (item for item in self.file.items if isinstance(item, Utterance))
 

@@ -24,7 +24,10 @@ STATUSES: Mapping[str, str] = {
     "placeholder": "its form is ours, and nobody's testimony",
     "judged": "signers have judged its form",
 }
-"""How much of a rule's form is testimony: the texts of the entry `'status`."""
+"""How much of a rule's form is testimony: the first words of the entry `'status`.
+
+After `judged` the entry says by whom and when.
+"""
 
 
 @dataclass(eq=False)
@@ -56,6 +59,12 @@ class Rule:
             if symbol.name == name:
                 return text.text
         return None
+
+    @property
+    def status(self) -> str | None:
+        """One of `STATUSES`, None if the rule states none of them."""
+        words = (self.entry("status") or "").split(maxsplit=1)
+        return words[0] if words and words[0] in STATUSES else None
 
     @cached_property
     def parameters(self) -> Sequence[tuple[str, bool]]:

@@ -105,7 +105,7 @@ def short(value: Value) -> str:
                 return constraint_text(constraints[0])
             return counted(len(constraints), "constraint")
         case ScoreValue(content=score):
-            name = f"{score.calls[0].rule}, " if score.calls else ""
+            name = f"{score.calls[0].title}, " if score.calls else ""
             return f"{name}{float(score.duration):.4g} s"
         case OperatorValue(content=operator):
             return operator.title.strip("`").replace(":", ".", 1)

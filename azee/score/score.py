@@ -19,10 +19,21 @@ from azee_solver.constraint import Constraint, Origin
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """The rule application that a score came from."""
+    """The rule application that a score came from.
+
+    handed_over: whether the rule was an argument, such as `.nb-5`, of what applied it. mouthed:
+    the text, where the score is a mouthing; `rule` is then the operator's name.
+    """
 
     rule: str
     origin: Origin | None = field(default=None, compare=False)
+    handed_over: bool = field(default=False, compare=False)
+    mouthed: str | None = None
+
+    @property
+    def title(self) -> str:
+        """How people call it: the rule's name, or what is mouthed."""
+        return self.rule if self.mouthed is None else f"“{self.mouthed}”"
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +103,11 @@ class Group(_Score):
 
 
 Score: TypeAlias = Key | Hold | Blank | Group
+
+
+def is_mouthing(score: Score) -> bool:
+    """Whether a score is a mouthing itself, not only one of its blocks."""
+    return any(call.mouthed is not None for call in score.calls)
 
 
 def came_from(score: Score, call: Call) -> Score:

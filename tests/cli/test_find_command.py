@@ -101,3 +101,16 @@ def test_rules_of_a_library_are_known(capsys: pytest.CaptureFixture[str]) -> Non
 def test_standard_input_is_searched(python: Python) -> None:
     done = python("-m", "azee", "find", "--quiet", "chat()", "-", stdin=":chat\n", expect=0)
     assert done.stdout == "<stdin>:1:1: :chat\n"
+
+
+def test_counts_are_told_by_file(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["find", "--count", "info-about(?a, ?b)", "one.azee", "ages.azee"]) == 0
+    captured = capsys.readouterr()
+    assert captured.out == "0\tone.azee\n2\tages.azee\n"
+    assert captured.err == "2 found\n"
+    assert run(["find", "--count", ":pays", "one.azee"]) == 3
+    capsys.readouterr()
+    assert run(["find", "--count", "--format", "json", ":chat", "one.azee", "ages.azee"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    jsonschema.validate(document, schema("matches"))
+    assert document == {"diagnostics": [], "counts": {"one.azee": 1, "ages.azee": 1}}

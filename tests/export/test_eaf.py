@@ -64,6 +64,9 @@ def test_every_block_is_an_annotation_at_its_time_inside_its_parent(
     check(ElementTree.parse(tmp_path / "a.eaf").getroot())
     assert read(tmp_path / "a.eaf") == {
         "score": [(500, 3500, "not-but")],
+        "rule not-but": [(500, 3500, "not-but")],
+        "rule été": [(500, 1500, "été")],
+        "rule wardrobe": [(2500, 3500, "wardrobe")],
         "blocks 1": [
             (500, 1500, "X · été"),
             (1500, 1900, "shake"),

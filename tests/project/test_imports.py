@@ -39,6 +39,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee_solver.surfaces": {"azee_rig", "azee_solver", "numba"},
     "azee.score": DECLARATIONS,
     "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
+    "azee.corpus": {"azee.lang", "azee.export.files", "azee.wording", "matplotlib", "pympi"},
     "azee.assist": {"azee_grammar", "azee.lang", "azee.score"} | DECLARATIONS,
     "azee.clip": {"azee_rig", "numpy"},
     "azee.motion.tasks": {"azee.clip", "azee.score", "azee_solver", "azee_rig", "numpy"},
@@ -71,10 +72,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     },
     "azee.animation": {"azee.clip", "azee.motion", "azee.quality", "azee.score"}
     | {"azee_solver", "azee_rig", "numpy"},
-    "azee.export": {"azee.score", "azee.motion.tasks", "azee_rig"} | DECLARATIONS,
+    "azee.export": {"azee.score", "azee.motion.tasks", "azee_grammar", "azee_rig"} | DECLARATIONS,
     "azee.export.formats": {
         *("azee.export.files", "azee.export.score_layout", "azee.export.track_rows"),
-        *("azee.clip", "azee.score", "azee_rig", "numpy"),
+        *("azee.export.articulators", "azee.clip", "azee.score", "azee_rig", "numpy"),
         *DECLARATIONS,
     },
     "azee.export.pictures": {

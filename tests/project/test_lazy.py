@@ -11,7 +11,19 @@ from programs import Python
 from azee_rig.machine_code import KEEPS
 
 TEXT = "key 1\n    cstr\n        place @I_TIP(s) @CH\n        orient 'nrm !palm(s) 'along ^up\n"
-HEAVY = ("PIL", "lark", "nlopt", "numba", "numpy", "prompt_toolkit", "rich", "scipy", "trimesh")
+HEAVY = (
+    "PIL",
+    "lark",
+    "matplotlib",
+    "pympi",
+    "nlopt",
+    "numba",
+    "numpy",
+    "prompt_toolkit",
+    "rich",
+    "scipy",
+    "trimesh",
+)
 SCRIPT = """
 import json, sys
 from azee.cli.main import run
@@ -27,6 +39,8 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("repl", "--help"): set(),
     ("repl",): {"lark"},
     ("rig", "--help"): set(),
+    ("corpus", "stats", "--help"): set(),
+    ("elan", "compare", "--help"): set(),
     ("rig", "sites", "--format", "json"): {"numpy"},
     ("check", "--quiet", "text.azee"): {"lark"},
     ("check", "--format", "json", "text.azee"): {"lark"},

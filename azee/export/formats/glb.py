@@ -13,19 +13,24 @@ from azee.export.formats.gltf.document import Document
 from azee.export.formats.gltf.mesh import add_mesh
 from azee.export.formats.gltf.skin import add_joints, add_skin
 from azee.export.formats.moving_body import MovingBody, postures
+from azee.score.provenance import Provenance
 from azee_rig.skeleton import Pose
 
 
-def write_glb(clip: Clip, rig: MovingBody, path: str | Path) -> None:
+def write_glb(
+    clip: Clip, rig: MovingBody, path: str | Path, provenance: Provenance | None = None
+) -> None:
     """Write a GLB that any glTF viewer plays.
 
     Joints keep the rig's names and bind pose; morph targets are the rig's face units, by name; the
     animation's extras hold the clip's labels. glTF's frame is ours: metres, Y up, the signer looks
-    along +Z.
+    along +Z. The asset's extras hold the provenance of the text, if it is given.
 
     Raises: OSError: the file cannot be written.
     """
     document = Document(generator="azee")
+    if provenance is not None:
+        document.asset["extras"] = {"provenance": provenance.as_json()}
     nodes = add_joints(document, rig.skeleton)
     mesh = add_mesh(document, rig.mesh, rig.name)
     skin = add_skin(document, rig.skeleton, nodes)

@@ -32,7 +32,7 @@ class Document:
     """
 
     def __init__(self, generator: str) -> None:
-        self.asset = {"version": "2.0", "generator": generator}
+        self.asset: dict[str, Any] = {"version": "2.0", "generator": generator}
         self.objects: dict[str, list[dict[str, Any]]] = {}
         self.buffer = bytearray()
         self._zero_rows, self._zero_view = 0, -1

@@ -1,0 +1,1 @@
+"""What a corpus of AZee texts has in it, counted."""

@@ -92,6 +92,7 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee.lang", "azee.motion", "azee.quality", "azee.score", "azee.wording"),
         *("azee_grammar", "azee_rig", "azee_solver"),
     },
+    "azee.lexicon": {"azee.export.files", "azee_grammar", "lark", "lxml"},
     "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},
     "azee.notebook": {*OURS, "numpy", "PIL"},
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},

@@ -1,0 +1,282 @@
+"""Performs notated movements: from hands at the start to timed moments and ways.
+
+A movement ends in the state that the next one starts from. Times follow the configuration of the
+engine of JASigning (sizes.py); its manner of repeating was measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from azee.lexicon.codes import bulge, direction
+from azee.lexicon.hand_text import Told
+from azee.lexicon.hands import NO_FLIP, Hands, flip_of, flipped, flipped_axis
+from azee.lexicon.model import (
+    Circle,
+    FingerPlay,
+    ForEach,
+    InTurn,
+    Movement,
+    Repeat,
+    Still,
+    Straight,
+    Symmetry,
+    Target,
+    Together,
+    Wrist,
+)
+from azee.lexicon.phrase import ArcWay, CircleWay, Moment, Move, Phrase, StraightWay, Way, joined
+from azee.lexicon.phrase import together as stretched_together
+from azee.lexicon.places import other
+from azee.lexicon.posing import Posing
+from azee.lexicon.sizes import (
+    BACK,
+    BULGE,
+    RADIUS_M,
+    STEP_S,
+    STRAIGHT_M,
+    TURN_S,
+    slowness,
+)
+from azee.lexicon.tremors import finger_play, wrist_tremor
+from azee.lexicon.vectors import Vector, is_close, times
+
+MOST_STEPS = 400
+"""The most single movements of a sign; more are a notation that repeats repetitions."""
+TIMES = {
+    "fromstart": 2,
+    "fromstart_several": 3,
+    "continue": 2,
+    "continue_several": 3,
+    "reverse": 1,
+    "tofroto": 2,
+    "manyrandom": 3,
+    "swap": 1,
+}
+"""How often a repetition is done."""
+_AGAIN = 0.85
+"""How long the second time takes, compared with the first."""
+
+Sides = tuple[str, ...]
+
+
+class TooLongError(Exception):
+    """A sign with more movements than any has."""
+
+
+@dataclass
+class Mover:
+    """Performs the movements of one part of a sign."""
+
+    symmetry: Symmetry | None
+    told: Told
+    steps: int = field(default=0)
+
+    def perform(
+        self, move: Movement, hands: Hands, sides: Sides, slow: float = 1.0
+    ) -> tuple[Phrase, Hands]:
+        """Return the movement in time, and the hands at its end.
+
+        Raises: TooLongError.
+        """
+        self.steps += 1
+        if self.steps > MOST_STEPS:
+            raise TooLongError
+        match move:
+            case Straight():
+                return self._straight(move, hands, sides, slow * slowness(move.manner))
+            case Circle():
+                return self._circle(move, hands, sides, slow * slowness(move.manner))
+            case Wrist():
+                tremors = wrist_tremor(move, sides, slow * slowness(move.manner), self._alternates)
+                return Phrase(max(t.end_s for t in tremors), tremors=tremors), hands
+            case FingerPlay():
+                tremors = finger_play(move, sides, slow * slowness(move.manner))
+                return Phrase(max(t.end_s for t in tremors), tremors=tremors), hands
+            case Still():
+                return Phrase(), hands
+            case Target():
+                return self._target(move, hands, sides, slow * slowness(move.manner))
+            case Together():
+                pairs = [(part, sides) for part in move.moves]
+                return self._together(pairs, hands, slow * slowness(move.manner))
+            case ForEach():
+                pairs = [(move.strong, ("s",)), (move.weak, ("w",))]
+                return self._together(pairs, hands, slow * slowness(move.manner))
+            case InTurn():
+                if move.fused:
+                    self.told("fused", "movements that run into each other are one after the other")
+                return self.in_turn(move.moves, hands, sides, slow * slowness(move.manner))
+            case Repeat():
+                return self._repeat(move, hands, sides, slow * slowness(move.manner))
+
+    @property
+    def _alternates(self) -> bool:
+        return self.symmetry is not None and self.symmetry.out_of_phase
+
+    # Parts --------------------------------------------------------------------------------------
+
+    def in_turn(
+        self, moves: Sequence[Movement], hands: Hands, sides: Sides, slow: float = 1.0
+    ) -> tuple[Phrase, Hands]:
+        """Perform movements one after the other, with a moment between them."""
+        parts, time_s = [], 0.0
+        for i, move in enumerate(moves):
+            phrase, hands = self.perform(move, hands, sides, slow)
+            parts.append(phrase.at(time_s))
+            time_s += phrase.duration_s
+            if i < len(moves) - 1:
+                parts.append(_moments(time_s, hands, sides))
+        return joined(time_s, parts), hands
+
+    def _together(
+        self, pairs: Sequence[tuple[Movement, Sides]], hands: Hands, slow: float
+    ) -> tuple[Phrase, Hands]:
+        phrases = []
+        for move, sides in pairs:
+            phrase, hands = self.perform(move, hands, sides, slow)
+            phrases.append(phrase)
+        return stretched_together(phrases), hands
+
+    def _target(
+        self, move: Target, hands: Hands, sides: Sides, slow: float
+    ) -> tuple[Phrase, Hands]:
+        """Perform movements that end in a posture; where it has a place, they only shape the way.
+
+        (Measured on the engine, and D: the public DTD.)
+        """
+        before = hands
+        phrase, hands = self._together([(part, sides) for part in move.moves], hands, slow)
+        location = move.posture.location
+        if location is not None:
+            hands = {
+                name: replace(hand, place=before[name].place, site=before[name].site)
+                for name, hand in hands.items()
+            }
+        hands = Posing(self.symmetry, self.told).pose(move.posture, hands, sides)
+        length_s = max(phrase.duration_s, STEP_S * slow)
+        parts = [phrase]
+        if location is not None:
+            moving = {m.name for m in phrase.moves}
+            went = [n for n in ("s", "w") if hands[n].place != before[n].place and n not in moving]
+            parts.append(Phrase(moves=[Move(0, length_s, n, StraightWay()) for n in went]))
+        return joined(length_s, parts), hands
+
+    # Movements ----------------------------------------------------------------------------------
+
+    def _straight(
+        self, move: Straight, hands: Hands, sides: Sides, slow: float
+    ) -> tuple[Phrase, Hands]:
+        heading = direction(move.heading)
+        size_m = STRAIGHT_M[move.size]
+        length_s = STEP_S * slow * (1.1 if move.curve else 1)
+        if move.zigzag:
+            self.told("zigzag", "a zigzag or wavy line is straight")
+        if move.brushed:
+            self.told("brushing", "what is touched on the way is not")
+        ways: dict[str, tuple[Vector, Way]] = {}
+        for name in sides:
+            flip = self._flip(name)
+            way: Way = StraightWay()
+            if move.curve:
+                size = BULGE[move.curve_size] * size_m
+                way = ArcWay(flipped(times(bulge(heading, move.curve), size), flip))
+            ways[name] = flipped(times(heading, size_m), flip), way
+        hands = _moved(hands, {name: vector for name, (vector, _) in ways.items()})
+        moves = [Move(0, length_s, name, way, hands[name].site) for name, (_, way) in ways.items()]
+        return Phrase(length_s, moves=moves), hands
+
+    def _circle(
+        self, move: Circle, hands: Hands, sides: Sides, slow: float
+    ) -> tuple[Phrase, Hands]:
+        axis = direction(move.axis)
+        if self._alternates:
+            self.told("out-of-phase", "hands that alternate in circles go together")
+        if move.start not in (None, "u"):
+            self.told("circle-start", f"a circle that starts at {move.start} starts where it can")
+        if move.end:
+            self.told("circle-part", "a part of a circle is a whole one")
+        if move.ellipse:
+            self.told("ellipse", "an ellipse is a circle")
+        length_s = TURN_S * slow * move.turns
+        moves = [
+            Move(
+                0,
+                length_s,
+                name,
+                CircleWay(flipped_axis(axis, self._flip(name)), RADIUS_M[move.size], move.turns),
+                hands[name].site,
+            )
+            for name in sides
+        ]
+        stays: dict[str, Vector] = dict.fromkeys(sides, (0, 0, 0))
+        return Phrase(length_s, moves=moves), _moved(hands, stays)
+
+    def _flip(self, name: str) -> Vector:
+        return flip_of(self.symmetry) if name == "w" else NO_FLIP
+
+    # Repetition ---------------------------------------------------------------------------------
+
+    def _repeat(
+        self, move: Repeat, hands: Hands, sides: Sides, slow: float
+    ) -> tuple[Phrase, Hands]:
+        count = TIMES[move.kind]
+        if move.again:
+            self.told("repeated-again", "a repetition that is repeated is done once")
+        if move.shift:
+            self.told("base-shift", "a repetition that goes on elsewhere stays where it is")
+        if isinstance(move.move, Circle):
+            turns = move.move.turns * max(count, 2 if move.kind == "reverse" else 1)
+            return self.perform(replace(move.move, turns=turns), hands, sides, slow)
+        start = hands
+        parts: list[Phrase] = []
+        time_s = 0.0
+        for i in range(count):
+            phrase, hands = self.perform(move.move, hands, sides, slow * (_AGAIN if i else 1))
+            parts.append(phrase.at(time_s))
+            time_s += phrase.duration_s
+            last = i == count - 1
+            if last and move.kind != "reverse":
+                break
+            parts.append(_moments(time_s, hands, sides))
+            if move.kind.startswith("continue") or not _differs(start, hands):
+                continue
+            back_s = STEP_S * slow * (1 if move.kind in ("reverse", "tofroto") else BACK)
+            ways = [
+                Move(time_s, time_s + back_s, name, StraightWay(), hands[name].site)
+                for name in sides
+            ]
+            parts.append(Phrase(moves=ways))
+            hands = start
+            time_s += back_s
+            if not last:
+                parts.append(_moments(time_s, hands, sides))
+        return joined(time_s, parts), hands
+
+
+def _moments(time_s: float, hands: Hands, sides: Sides) -> Phrase:
+    return Phrase(moments=[Moment(time_s, name, hands[name]) for name in sides])
+
+
+def _differs(start: Hands, hands: Hands) -> bool:
+    return any(start[name] != hands[name] for name in start)
+
+
+def _moved(hands: Hands, ways: dict[str, Vector]) -> Hands:
+    """Return hands that went some way. Hands that touch and go the same way stay together."""
+    out = dict(hands)
+    for name, way in ways.items():
+        hand = hands[name]
+        if hand.place is None:
+            continue
+        if not hand.place.is_at_hand:
+            out[name] = replace(hand, place=hand.place.moved(way))
+            continue
+        base = hands[other(name)]
+        base_way = ways.get(other(name))
+        if base_way is None:
+            out[name] = replace(hand, place=hand.place.moved(way))
+        elif not is_close(base_way, way) and base.place is not None:
+            out[name] = replace(hand, place=base.place.moved(way))
+    return out

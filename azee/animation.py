@@ -35,8 +35,10 @@ from azee.motion.tasks.key_selection import MODES, KeySelection, Mode
 from azee.motion.tasks.limbs import Limbs
 from azee.motion.tasks.schedule import TaskSchedule, bind
 from azee.motion.tasks.tracks import Track, tracks
+from azee.motion.tasks.turning import with_turns
 from azee.motion.timing.pace import Pace
 from azee.motion.timing.performed import TIMINGS, Performance, Timing, performed
+from azee.motion.timing.recalled import recalled
 from azee.motion.timing.remembering import RememberingSolver
 from azee.motion.timing.ways import Ways
 from azee.quality.likeness import likeness
@@ -130,14 +132,16 @@ def animate(
     seed = seed_of(score) if seed is None else seed
 
     # 1. Give ways their time: scale the score, and bend it where an arm has too far to go.
+    #    Before, find the ends of turns, and the places of points as they were.
     postures = solver or _default_solver(rig, dominant, precise)
-    score = paced(score, 1 / Fraction(str(float(tempo))))
-    performance, needed_s = Performance(score), None
+    score = paced(with_turns(score, dominant), 1 / Fraction(str(float(tempo))))
     if timing == "performed":
         postures = RememberingSolver(postures)
-        performance = performed(
-            score, evaluator, selection, postures, pace, rest_posture(rig, rest, dominant)
-        )
+    at_rest = rest_posture(rig, rest, dominant)
+    score = recalled(score, evaluator, selection, postures, at_rest)
+    performance, needed_s = Performance(score), None
+    if timing == "performed":
+        performance = performed(score, evaluator, selection, postures, pace, at_rest)
         score, needed_s = performance.score, Ways(evaluator, selection.limbs.members, pace).needed_s
 
     # 2. Project the nested score on one time line.
@@ -150,7 +154,6 @@ def animate(
 
     # 4 to 10. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]
-    at_rest = rest_posture(rig, rest, dominant)
     planned = plan(
         schedule, evaluator, selection, postures, frames_inside, at_rest, needed_s,
         performance.boundaries,

@@ -28,6 +28,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -48,7 +49,9 @@ from azee_solver.geometry import (
     SigningSpace,
     Site,
     SitePoint,
+    Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -57,7 +60,10 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 S, W = Side.STRONG, Side.WEAK
@@ -80,6 +86,7 @@ VECTORS: tuple[Vector, ...] = (
     Cross(Nrm(HEAD), SLANTED),
     Towards(CHIN, OTHER_TIP),
     Rotated(Nrm(OTHER_PALM), SLANTED, math.radians(30)),
+    Swing(SLANTED, Nrm(OTHER_PALM)),
 )
 MOVING = Moving(Straight(), RIGHT_SPACE, VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)))
 POINTS: tuple[Point, ...] = (
@@ -91,6 +98,7 @@ POINTS: tuple[Point, ...] = (
     Between(OTHER_TIP, CHIN, 0.25),
     MOVING,
     WorldPoint(-0.2, 1.2, 0.3),
+    Was("A", OTHER_TIP, (-0.2, 1.2, 0.3)),
 )
 
 
@@ -111,6 +119,11 @@ PATHS: tuple[Path, ...] = (
     Straight(),
     Arc(Scale(Nrm(OTHER_PALM), 0.125)),
     Circle(Vec(0.0, 0.0, 1.0), 0.0625, 1.25),
+    Circle(Vec(0.0, 0.0, 1.0), 0.0625, 1.25, math.radians(60), 0.5, 0.125),
+    Around(VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)), Vec(0.0, 0.0, 1.0), 1.0),
+    Wave(Scale(Nrm(OTHER_PALM), 0.125), 1.5),
+    Zigzag(Scale(Nrm(OTHER_PALM), 0.125), 3),
+    Slide(Bone("f_arm", W), Straight()),
     Through((VTranslate(OTHER_TIP, Vec(0.0, 0.0, 0.1)),)),
 )
 CONSTRAINTS: tuple[Constraint, ...] = (

@@ -14,6 +14,7 @@ from azee_solver.geometry import (
     Rotated,
     Scale,
     Side,
+    Swing,
     Towards,
     Unit,
     VDiff,
@@ -70,6 +71,8 @@ def known(vector: Vector, dominant: Side) -> Numbers | None:
             return _ZERO if start == end else None
         case Rotated(inner, _, _):
             return _ZERO if is_zero(inner, dominant) else None
+        case Swing():
+            return None
 
 
 def _scaled(vector: Numbers | None, factor: float) -> Numbers | None:

@@ -29,6 +29,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Circle,
     Cross,
@@ -47,7 +48,9 @@ from azee_solver.geometry import (
     Side,
     SigningSpace,
     SitePoint,
+    Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -56,7 +59,10 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 
@@ -168,15 +174,21 @@ class Mirror(Change):
                 return Cross(self.node(right), self.node(left))
             case Rotated(angle_rad=angle):
                 return replace(self.rebuilt(node), angle_rad=-angle)
-            case Circle(turns=turns):
+            case Circle(turns=turns, phase_rad=phase):
+                return replace(self.rebuilt(node), turns=-turns, phase_rad=-phase if phase else 0.0)
+            case Around(turns=turns):
                 return replace(self.rebuilt(node), turns=-turns)
             case NamedPoint(place):
                 return NamedPoint(self.place(place))
             case Out() | Dir() | Nrm() | Opp() | Unit() | Scale() | VSum() | VDiff() | Towards():
                 return self.rebuilt(node)
-            case SitePoint() | JointPoint() | VTranslate() | Between() | Moving():
+            case Swing():
                 return self.rebuilt(node)
-            case Straight() | Arc() | Through():
+            case Was(at=tuple((x, y, z))):
+                return replace(node, point=self.node(node.point), at=(-x if x else x, y, z))
+            case SitePoint() | JointPoint() | VTranslate() | Between() | Moving() | Was():
+                return self.rebuilt(node)
+            case Straight() | Arc() | Wave() | Zigzag() | Through() | Slide():
                 return self.rebuilt(node)
 
 

@@ -26,7 +26,7 @@ from azee_solver.constraint import (
     Transpath,
     Trill,
 )
-from azee_solver.geometry import Circle, Moving, Rotated, Side, Unit, Vector
+from azee_solver.geometry import Around, Circle, Moving, Rotated, Side, Slide, Unit, Vector
 from azee_solver.notation import vector_text
 
 Where = Callable[[Constraint], Span | None]
@@ -155,7 +155,8 @@ def _turns(constraint: Constraint) -> tuple[float, ...]:
     """Return the turns of every circle that a constraint moves on."""
     whole = (constraint.path,) if isinstance(constraint, Transpath) else ()
     inner = (node.path for node in _nodes(constraint) if isinstance(node, Moving))
-    return tuple(path.turns for path in (*whole, *inner) if isinstance(path, Circle))
+    named = [path.path if isinstance(path, Slide) else path for path in (*whole, *inner)]
+    return tuple(path.turns for path in named if isinstance(path, Circle | Around))
 
 
 @lru_cache(maxsize=4096)
@@ -176,7 +177,7 @@ def _directions(constraint: Constraint) -> Iterator[Vector]:
     for node in _nodes(constraint):
         if isinstance(node, Unit):
             yield node.vector
-        elif isinstance(node, Rotated | Circle):
+        elif isinstance(node, Rotated | Circle | Around):
             yield node.axis
 
 

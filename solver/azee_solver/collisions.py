@@ -17,7 +17,7 @@ from azee_solver.anatomy import Anatomy, Part
 from azee_solver.binding import Binding
 from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Place
-from azee_solver.geometry import Site, SitePoint
+from azee_solver.geometry import Site, SitePoint, WorldPoint
 from azee_solver.kinematics import Parting
 
 if TYPE_CHECKING:
@@ -176,6 +176,9 @@ def _meant(constraints: Iterable[Constraint]) -> Iterator[tuple[Site, Site, bool
     for place in places:
         if isinstance(place.point, SitePoint):
             yield place.site, place.point.site, place.contact
+        elif isinstance(place.point, WorldPoint):
+            for site in place.point.touching:
+                yield place.site, site, True
     for a, b in combinations(places, 2):
         if a.point == b.point and a.distance_m == b.distance_m == 0.0:
             yield a.site, b.site, False

@@ -8,7 +8,7 @@ of the body that plays. A direction that its operands do not define is NaN, neve
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -33,6 +33,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -53,7 +54,9 @@ from azee_solver.geometry import (
     SigningSpace,
     Site,
     SitePoint,
+    Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -62,9 +65,13 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
+    Wave,
     WorldPoint,
+    Zigzag,
     depends_on,
 )
+from azee_solver.sliding import skin_of
 
 if TYPE_CHECKING:
     from azee_rig.rig import BoneNodes, Rig
@@ -95,8 +102,10 @@ class Evaluator:
 
     # Geometry ---------------------------------------------------------------------------------
 
-    def vector(self, expr: Vector, frames: Frames) -> Array:
+    def vector(self, expr: Vector, frames: Frames, phase: float = 0.0) -> Array:
         """Return a vector of the signer's frame, (…, 3), not made to length one.
+
+        A dynamic one as it is at `phase`.
 
         Raises: BindingError: the rig lacks a bone or site.
         """
@@ -111,25 +120,33 @@ class Evaluator:
             case Nrm(bone):
                 return self.axis(bone, BoneAxis.NRM, frames)
             case Opp(inner):
-                return -self.vector(inner, frames)
+                return -self.vector(inner, frames, phase)
             case Unit(inner):
-                return paths.unit(self.vector(inner, frames))
+                return paths.unit(self.vector(inner, frames, phase))
             case Scale(inner, factor):
-                return factor * self.vector(inner, frames)
+                return factor * self.vector(inner, frames, phase)
             case VSum(inners):
                 total = np.zeros(3)
                 for inner in inners:
-                    total = total + self.vector(inner, frames)
+                    total = total + self.vector(inner, frames, phase)
                 return total
             case VDiff(left_, right_):
-                return self.vector(left_, frames) - self.vector(right_, frames)
+                return self.vector(left_, frames, phase) - self.vector(right_, frames, phase)
             case Cross(left_, right_):
-                return np.cross(self.vector(left_, frames), self.vector(right_, frames))
+                return np.cross(
+                    self.vector(left_, frames, phase), self.vector(right_, frames, phase)
+                )
             case Towards(start, end):
-                return paths.unit(self.point(end, frames) - self.point(start, frames))
+                a, b = (self.point(p, frames, phase) for p in (start, end))
+                return paths.unit(b - a)
             case Rotated(inner, axis, angle):
-                spin = paths.unit(self.vector(axis, frames))
-                return paths.turned(self.vector(inner, frames), spin, angle)
+                spin = paths.unit(self.vector(axis, frames, phase))
+                return paths.turned(self.vector(inner, frames, phase), spin, angle)
+            case Swing(from_, to):
+                if from_ is None or to is None:
+                    return np.full(3, np.nan)
+                first, last = self.vector(from_, frames, phase), self.vector(to, frames, phase)
+                return paths.swung(first, last, phase)
 
     def point(self, expr: Point, frames: Frames, phase: float = 0.0) -> Array:
         """Return a point in the world, (…, 3) metres; a dynamic one where it is at `phase`.
@@ -147,7 +164,8 @@ class Evaluator:
                 node = self.binding.bone(bone).origin_node
                 return np.asarray(frames.positions[..., node, :])
             case VTranslate(point, vector):
-                return self.point(point, frames, phase) + self.scale * self.vector(vector, frames)
+                moved = self.scale * self.vector(vector, frames, phase)
+                return self.point(point, frames, phase) + moved
             case Between(start, end, fraction):
                 return paths.straight(
                     self.point(start, frames, phase), self.point(end, frames, phase), fraction
@@ -157,6 +175,8 @@ class Evaluator:
                 return self.path(path, a, b, phase, frames)
             case WorldPoint(x, y, z):
                 return np.array([x, y, z], dtype=np.float64)
+            case Was(at=place):
+                return np.full(3, np.nan) if place is None else np.array(place)
 
     def named(self, place: SigningSpace) -> str:
         """Name in the rig's signing space; strong and weak bound to their sides."""
@@ -209,14 +229,33 @@ class Evaluator:
             case Straight():
                 return paths.straight(a, b, times)
             case Arc(bulge):
-                side = self.scale * self.vector(bulge, frames)
-                return paths.arc(a, b, spread(side), times)
-            case Circle(axis, radius, turns):
+                return paths.arc(a, b, self._aside(bulge, frames, spread), times)
+            case Circle(axis, radius, turns, phase, ratio, last):
                 spin = spread(self.vector(axis, frames))
-                return paths.circle(a, b, spin, self.scale * radius, turns, times)
+                return paths.circle(
+                    a, b, spin, self.scale * radius, turns, times, phase=phase, ratio=ratio,
+                    end_radius=None if last is None else self.scale * last,
+                )  # fmt: skip
+            case Around(centre, axis, turns):
+                middle, spin = (
+                    spread(v) for v in (self.point(centre, frames), self.vector(axis, frames))
+                )
+                return paths.around(a, b, middle, spin, turns, times)
+            case Wave(side, waves):
+                return paths.wave(a, b, self._aside(side, frames, spread), waves, times)
+            case Zigzag(side, corners):
+                return paths.zigzag(a, b, self._aside(side, frames, spread), corners, times)
+            case Slide(bone, course):
+                skin = skin_of(self.rig, self.binding.bone(bone))
+                free = self.path(course, start, end, t, frames)
+                return skin.laid_on(free, a, b, times, frames)
             case Through(points):
                 inner = [spread(self.point(p, frames)) for p in points]
                 return paths.through(np.stack(np.broadcast_arrays(a, *inner, b), axis=-2), times)
+
+    def _aside(self, vector: Vector, frames: Frames, spread: Callable[[Array], Array]) -> Array:
+        """Return a vector of a path in metres of this body."""
+        return spread(self.scale * self.vector(vector, frames))
 
     # Constraints ------------------------------------------------------------------------------
 
@@ -271,12 +310,12 @@ class Evaluator:
                     gap = np.abs(gap - self.scale * distance)
                 return beyond(gap, self.scale * within), "m"
             case Orient(axis, bone, relation, vector, within):
-                between = angle(self.axis(bone, axis, frames), self.vector(vector, frames))
+                between = angle(self.axis(bone, axis, frames), self.vector(vector, frames, phase))
                 if relation is Relation.ACROSS:
                     between = np.abs(between - np.pi / 2)
                 return beyond(between, within), "rad"
             case Look(vector):
-                wanted = self.vector(vector, frames)
+                wanted = self.vector(vector, frames, phase)
                 off = [angle(self.gaze(eye, frames)[1], wanted) for eye in EYES]
                 return np.maximum(*off), "rad"
             case LookAt(point):

@@ -19,6 +19,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -37,7 +38,9 @@ from azee_solver.geometry import (
     Scale,
     Site,
     SitePoint,
+    Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -46,7 +49,10 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 
@@ -158,10 +164,14 @@ class _Reader:
             case Towards(start, end):
                 self.point(start)
                 self.point(end)
+            case Swing(start, end):
+                for side in (start, end):
+                    if side is not None:
+                        self.vector(side)
 
     def point(self, expr: Point) -> None:
         match expr:
-            case FreePoint() | NamedPoint() | WorldPoint():
+            case FreePoint() | NamedPoint() | WorldPoint() | Was():
                 self.world = True
             case SitePoint(site):
                 self.site(site)
@@ -182,9 +192,15 @@ class _Reader:
 
     def path(self, path: Path) -> None:
         match path:
-            case Arc(vector) | Circle(vector):
+            case Arc(vector) | Circle(vector) | Wave(vector) | Zigzag(vector):
                 self.vector(vector)
                 self.world = True  # a circle's starting side is the world's
+            case Around(centre, axis):
+                self.point(centre)
+                self.vector(axis)
+            case Slide(bone, inner):
+                self.node(self.bone(bone))
+                self.path(inner)
             case Through(points):
                 for point in points:
                     self.point(point)

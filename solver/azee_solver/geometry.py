@@ -176,8 +176,19 @@ class Rotated:
     angle_rad: float
 
 
+@dataclass(frozen=True, slots=True)
+class Swing:
+    """`swing V W`: a dynamic direction, on the shorter arc from V to W while its block lasts.
+
+    Without V and W, as `turning` makes it, they are those of the orientations before and after.
+    """
+
+    start: Vector | None
+    end: Vector | None
+
+
 Vector: TypeAlias = (
-    Vec | Out | Dir | Nrm | Opp | Unit | Scale | VSum | VDiff | Cross | Towards | Rotated
+    Vec | Out | Dir | Nrm | Opp | Unit | Scale | VSum | VDiff | Cross | Towards | Rotated | Swing
 )
 
 # Points -------------------------------------------------------------------------------------
@@ -254,16 +265,39 @@ class Moving:
 class WorldPoint:
     """A place in the world of the body that plays, metres: what motion code has measured.
 
-    No AZee text makes one.
+    No AZee text makes one. `touching`: sites of the part of the body whose skin is there and may be
+    touched.
     """
 
     x: float
     y: float
     z: float
+    touching: tuple[Site, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Was:
+    """`was 'BLOCK P`: where a point was when a block ended.
+
+    at: that place, metres in the world of the body that plays, once motion code has measured it;
+    before, it is nowhere.
+    """
+
+    block: str
+    point: Point
+    at: tuple[float, float, float] | None = None
 
 
 Point: TypeAlias = (
-    FreePoint | NamedPoint | SitePoint | JointPoint | VTranslate | Between | Moving | WorldPoint
+    FreePoint
+    | NamedPoint
+    | SitePoint
+    | JointPoint
+    | VTranslate
+    | Between
+    | Moving
+    | WorldPoint
+    | Was
 )
 
 # Paths --------------------------------------------------------------------------------------
@@ -283,11 +317,51 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class Circle:
-    """`circle AXIS RADIUS turns`: radius in metres of the reference signer."""
+    """`circle AXIS RADIUS turns` and `spiral`: radii in metres of the reference signer.
+
+    It starts `phase_rad` beyond its highest point, right-handed about the axis. Its height is
+    `ratio` times its width. A spiral ends with another radius.
+    """
 
     axis: Vector
     radius_m: float
     turns: float
+    phase_rad: float = 0.0
+    ratio: float = 1.0
+    end_radius_m: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Around:
+    """`around POINT AXIS turns`: about a centre, as far from it as the ends are."""
+
+    centre: Point
+    axis: Vector
+    turns: float
+
+
+@dataclass(frozen=True, slots=True)
+class Wave:
+    """`wave V n`: to and fro along V, n times on the way."""
+
+    side: Vector
+    waves: float
+
+
+@dataclass(frozen=True, slots=True)
+class Zigzag:
+    """`zigzag V n`: n corners, to the side of V and to the other in turns."""
+
+    side: Vector
+    corners: int
+
+
+@dataclass(frozen=True, slots=True)
+class Slide:
+    """`slide BONE PATH`: a path laid on the skin of a part of the body."""
+
+    bone: Bone
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -297,7 +371,7 @@ class Through:
     points: tuple[Point, ...]
 
 
-Path: TypeAlias = Straight | Arc | Circle | Through
+Path: TypeAlias = Straight | Arc | Circle | Around | Wave | Zigzag | Through | Slide
 
 
 # Dependencies -------------------------------------------------------------------------------
@@ -315,6 +389,8 @@ def _collect(node: object, found: set[Bone | Site]) -> None:
     match node:
         case Bone() | Site():
             found.add(node)
+        case Was():
+            pass  # it is over
         case tuple():
             for item in node:
                 _collect(item, found)

@@ -22,6 +22,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -40,7 +41,9 @@ from azee_solver.geometry import (
     Scale,
     Site,
     SitePoint,
+    Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -49,7 +52,10 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
+    Wave,
     WorldPoint,
+    Zigzag,
 )
 
 DIRECTIONS: dict[tuple[float, float, float], str] = {
@@ -64,7 +70,7 @@ DIRECTIONS: dict[tuple[float, float, float], str] = {
 
 def constraint_text(constraint: Constraint) -> str:
     """Return a constraint as AZee writes it, such as `place @EL(s) @PA(w) 'contact`."""
-    return " ".join(_halves(constraint))
+    return " ".join(filter(None, _halves(constraint)))
 
 
 def subject_text(constraint: Constraint) -> str:
@@ -108,6 +114,8 @@ def _halves(constraint: Constraint) -> tuple[str, str]:
             options += " 'contact" if contact else ""
             options += f" 'within {number_text(within)}" if within else ""
             return f"place {part_text(site)}", f"{point_text(point)}{options}"
+        case Orient(axis, bone, vector=Swing(None)):
+            return f"turning '{axis.value} {part_text(bone)}", ""
         case Orient(axis, bone, relation, vector, within):
             subject = f"orient '{axis.value} {part_text(bone)}"
             options = f" 'within {_degrees(within)}" if within else ""
@@ -176,6 +184,8 @@ def vector_text(vector: Vector) -> str:
             return _call("towards", point_text(start), point_text(end))
         case Rotated(of, axis, angle_rad):
             return _call("rotated", vector_text(of), vector_text(axis), _degrees(angle_rad))
+        case Swing(start, end):
+            return _call("swing", *(vector_text(v) for v in (start, end) if v is not None))
 
 
 def point_text(point: Point) -> str:
@@ -195,6 +205,8 @@ def point_text(point: Point) -> str:
             return _call("vtranslate", point_text(of), vector_text(vector))
         case Between(start, end, fraction):
             return _call("between", point_text(start), point_text(end), number_text(fraction))
+        case Was(block, of):
+            return _call("was", f"'{block}", point_text(of))
         case Moving(path, start, end):
             return _call("moving", path_text(path), point_text(start), point_text(end))
 
@@ -206,8 +218,21 @@ def path_text(path: Path) -> str:
             return "straight"
         case Arc(bulge):
             return _call("arc", vector_text(bulge))
-        case Circle(axis, radius_m, turns):
-            return _call("circle", vector_text(axis), number_text(radius_m), number_text(turns))
+        case Circle(axis, radius_m, turns, phase_rad, ratio, end_radius_m):
+            ends = [radius_m] if end_radius_m is None else [radius_m, end_radius_m]
+            options = [f"'phase = {_degrees(phase_rad)}"] if phase_rad else []
+            options += [f"'ratio = {number_text(ratio)}"] if ratio != 1.0 else []
+            name = "circle" if end_radius_m is None else "spiral"
+            numbers = map(number_text, (*ends, turns))
+            return _call(name, vector_text(axis), *numbers, *options)
+        case Around(centre, axis, turns):
+            return _call("around", point_text(centre), vector_text(axis), number_text(turns))
+        case Wave(side, waves):
+            return _call("wave", vector_text(side), number_text(waves))
+        case Zigzag(side, corners):
+            return _call("zigzag", vector_text(side), number_text(corners))
+        case Slide(bone, inner):
+            return _call("slide", part_text(bone), path_text(inner))
         case Through(points):
             return _call("through", *map(point_text, points))
 

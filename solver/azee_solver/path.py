@@ -1,4 +1,4 @@
-"""Points along the paths that AZee names, numerically: straight, arc, circle and through.
+"""Points along the paths that AZee names, numerically, but for those on the skin.
 
 All paths lead from a start to an end while t goes from 0 to 1. Shapes: start and end (…, 3),
 t (…,) broadcast against them, results (…, 3). A path that its operands do not define is NaN.
@@ -7,6 +7,7 @@ t (…,) broadcast against them, results (…, 3). A path that its operands do n
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -40,6 +41,23 @@ def unit(v: Array) -> Array:
         return np.asarray(v / size)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(size > TINY, v / size, np.nan)
+
+
+def swung(start: Array, end: Array, t: ArrayLike) -> Array:
+    """Return unit vectors on the shorter arc from one direction to another (slerp).
+
+    NaN between opposite directions, which have no shorter arc.
+    """
+    a, b = unit(start), unit(end)
+    u = np.asarray(t, dtype=np.float64)[..., None]
+    angle = 2.0 * np.arctan2(length(a - b), length(a + b))[..., None]
+    sine = np.sin(angle)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        between = (np.sin((1.0 - u) * angle) * a + np.sin(u * angle) * b) / sine
+    alike = angle < TINY
+    opposite = (np.pi - angle < 1e-6) & (u > 0.0) & (u < 1.0)
+    between = np.where(alike | (u <= 0.0), a, np.where(u >= 1.0, b, between))
+    return np.asarray(np.where(opposite, np.nan, between))
 
 
 def turned(v: Array, axis: Array, angle: ArrayLike) -> Array:
@@ -83,21 +101,99 @@ def arc(start: Array, end: Array, bulge: Array, t: ArrayLike) -> Array:
 
 
 def circle(
-    start: Array, end: Array, axis: Array, radius: float, turns: float, t: ArrayLike
+    start: Array,
+    end: Array,
+    axis: Array,
+    radius: float,
+    turns: float,
+    t: ArrayLike,
+    *,
+    phase: float = 0.0,
+    ratio: float = 1.0,
+    end_radius: float | None = None,
 ) -> Array:
     """Return points on circles about an axis while the whole travels from start to end.
 
-    The movement starts at the circle's highest point, or where the axis is upright at the one
-    farthest in front; whole turns between equal points give the circle itself. A part of a turn
-    is led to the end by an even drift.
+    The movement starts `phase` radians beyond the circle's highest point, or where the axis is
+    upright beyond the one farthest in front; whole turns between equal points give the circle
+    itself. A part of a turn is led to the end by an even drift.
+
+    Args: ratio: of height and width. end_radius: a spiral's at its end.
     """
     axis = unit(axis)
     upright = np.abs(axis[..., 1:2]) > 1 - 1e-6
     highest = np.where(upright, np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0]))
-    spoke = radius * unit(highest - np.sum(axis * highest, axis=-1, keepdims=True) * axis)
+    top = unit(highest - np.sum(axis * highest, axis=-1, keepdims=True) * axis)
+    beside = np.cross(axis, top)
+    last = radius if end_radius is None else end_radius
+
+    def ring(u: Array) -> Array:
+        angle = (phase + 2 * np.pi * turns * u)[..., None]
+        size = (radius + (last - radius) * u)[..., None]
+        return np.asarray(size * (ratio * np.cos(angle) * top + np.sin(angle) * beside))
+
+    return _led(start, end, ring, t)
+
+
+def _led(start: Array, end: Array, curve: Callable[[Array], Array], t: ArrayLike) -> Array:
+    """Return a curve of u from 0 to 1, with an even drift that leads it from start to end."""
     u = np.asarray(t, dtype=np.float64)
-    gap = turned(spoke, axis, np.asarray(2 * np.pi * turns)) - spoke
-    return straight(start, end - gap, u) + turned(spoke, axis, 2 * np.pi * turns * u) - spoke
+    first, last = curve(np.zeros(())), curve(np.ones(()))
+    return np.asarray(straight(start - first, end - last, u) + curve(u))
+
+
+def around(
+    start: Array, end: Array, centre: Array, axis: Array, turns: float, t: ArrayLike
+) -> Array:
+    """Return points that turn about an axis through a centre, from start to end.
+
+    The angle is the one from start to end that is nearest to so many turns; distance from the axis
+    and height along it change evenly. Equal times are equal angles.
+    """
+    axis = unit(axis)
+    u = np.asarray(t, dtype=np.float64)
+    heights, spokes, sizes = [], [], []
+    for point in (start, end):
+        from_centre = point - centre
+        height = np.sum(axis * from_centre, axis=-1, keepdims=True)
+        heights.append(height)
+        spokes.append(from_centre - height * axis)
+        sizes.append(np.linalg.norm(spokes[-1], axis=-1, keepdims=True))
+    between = np.arctan2(
+        np.sum(axis * np.cross(spokes[0], spokes[1]), axis=-1), np.sum(spokes[0] * spokes[1], -1)
+    )
+    angle = between + 2 * np.pi * np.round(turns - between / (2 * np.pi))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        way = np.where(sizes[0] > TINY, spokes[0] / sizes[0], spokes[1] / sizes[1])
+    v = u[..., None]
+    size = sizes[0] + (sizes[1] - sizes[0]) * v
+    height = heights[0] + (heights[1] - heights[0]) * v
+    return np.asarray(centre + height * axis + size * turned(way, axis, angle * u))
+
+
+def wave(start: Array, end: Array, side: Array, waves: float, t: ArrayLike) -> Array:
+    """Return points of the segment, moved to and fro along `side`: so many sines."""
+    u = np.asarray(t, dtype=np.float64)
+    aside = np.sin(2 * np.pi * waves * u)[..., None] * side
+    last = u[..., None] * np.sin(2 * np.pi * waves) * side
+    return np.asarray(straight(start, end, u) + aside - last)
+
+
+def zigzag(start: Array, end: Array, side: Array, corners: int, t: ArrayLike) -> Array:
+    """Return points of a line with corners on both sides of the segment in turns.
+
+    They lie evenly along the way, the first on the side of `side`. A point slows down before a
+    corner and speeds up behind it, on each leg by minimum jerk.
+    """
+    u = np.clip(np.asarray(t, dtype=np.float64), 0.0, 1.0)
+    at = np.array([0.0, *((k + 0.5) / corners for k in range(corners)), 1.0])
+    off = np.array([0.0, *(1.0 if k % 2 == 0 else -1.0 for k in range(corners)), 0.0])
+    leg = np.clip(np.searchsorted(at, u, side="right") - 1, 0, corners)
+    share = (u - at[leg]) / (at[leg + 1] - at[leg])
+    eased = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+    along = at[leg] + eased * (at[leg + 1] - at[leg])
+    aside = off[leg] + eased * (off[leg + 1] - off[leg])
+    return np.asarray(straight(start, end, along) + aside[..., None] * side)
 
 
 _PER_SEGMENT = 64

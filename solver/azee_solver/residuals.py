@@ -71,6 +71,7 @@ def lower(
     factors: Mapping[int, float],
     *,
     drawn: bool = True,
+    inside: bool = False,
 ) -> Residuals:
     """Return the rows of tasks, weighted so that a miss by the tolerance costs 1.
 
@@ -78,7 +79,7 @@ def lower(
     of all tasks, that draws it to the middle.
 
     Args: factors: of the tasks' weights, where they are not 1. drawn: whether to draw tasks to the
-        middle of their bounds.
+        middle of their bounds. inside: whether dead zones end a tolerance inside the bounds.
     """
     rows: list[Row] = []
     runs: dict[int, tuple[int, int]] = {}
@@ -88,7 +89,7 @@ def lower(
         start = len(rows)
         weight = factors.get(i, 1.0) / tolerance.of(task.constraint) ** 2
         try:
-            rows += _rows(tape, task, weight)
+            rows += _rows(tape, task, weight, tolerance.of(task.constraint) if inside else 0.0)
         except DegenerateError:
             undefined.add(i)
             continue
@@ -100,19 +101,21 @@ def lower(
     return Residuals((*rows, *towards_middle), runs, frozenset(undefined))
 
 
-def _rows(tape: Tape, task: Task, weight: float) -> list[Row]:
+def _rows(tape: Tape, task: Task, weight: float, inside: float) -> list[Row]:
     constraint = task.constraint
     match constraint:
         case Place(site, point, distance, within_m=within):
-            reach, slack = (tape.evaluator.scale * length for length in (distance, within))
+            reach = tape.evaluator.scale * distance
+            slack = max(tape.evaluator.scale * within - inside, 0.0)
             if isinstance(point, SitePoint):
                 aim, reach = tape.site(point.site, reach), 0.0
             else:
                 aim = tape.point(point, task.phase)
             kind = block.AT_DISTANCE if reach or slack else block.MEET
             return [Row(kind, tape.site(site), aim, weight, reach, slack)]
-        case Orient(axis, bone, relation, vector, within):
-            own, aim = tape.axis(bone, axis), tape.unit(tape.vector(vector))
+        case Orient(axis, bone, relation, vector, bound):
+            within = max(bound - inside, 0.0)
+            own, aim = tape.axis(bone, axis), tape.unit(tape.vector(vector, task.phase))
             if relation is Relation.ACROSS:
                 steep = math.cos(within)
                 weight, slack = weight / steep**2, math.sin(within)
@@ -122,7 +125,7 @@ def _rows(tape: Tape, task: Task, weight: float) -> list[Row]:
             kind = block.AT_DISTANCE if within else block.MEET
             return [Row(kind, own, aim, weight, slack=slack)]
         case Look(vector):
-            aim = tape.unit(tape.vector(vector))
+            aim = tape.unit(tape.vector(vector, task.phase))
             return [Row(block.MEET, tape.gaze(eye)[1], aim, weight) for eye in EYES]
         case LookAt(point):
             aim = tape.point(point, task.phase)

@@ -46,6 +46,7 @@ from azee_solver.geometry import (
     Site,
     SitePoint,
     Straight,
+    Swing,
     Towards,
     Unit,
     VDiff,
@@ -53,6 +54,7 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
     WorldPoint,
     depends_on,
 )
@@ -166,8 +168,11 @@ class Tape:
 
     # Geometry ---------------------------------------------------------------------------------
 
-    def vector(self, expr: Vector) -> int:
-        """Entry of a vector expression. Raises DegenerateError, BindingError."""
+    def vector(self, expr: Vector, phase: float = 0.0) -> int:
+        """Entry of a vector expression. Raises DegenerateError, BindingError.
+
+        A dynamic one keeps the shares of its ends that it has in the posture at hand.
+        """
         match expr:
             case Vec() | Out():
                 return self.constant(self.evaluator.vector(expr, self.frames))
@@ -176,24 +181,44 @@ class Tape:
             case Nrm(bone):
                 return self.axis(bone, BoneAxis.NRM)
             case Opp(inner):
-                return self.combine(self.vector(inner), -1.0)
+                return self.combine(self.vector(inner, phase), -1.0)
             case Unit(inner):
-                return self.unit(self.vector(inner))
+                return self.unit(self.vector(inner, phase))
             case Scale(inner, factor):
-                return self.combine(self.vector(inner), factor)
+                return self.combine(self.vector(inner, phase), factor)
             case VSum(inners):
                 total = self.constant(np.zeros(3))
                 for inner in inners:
-                    total = self.combine(total, 1.0, self.vector(inner), 1.0)
+                    total = self.combine(total, 1.0, self.vector(inner, phase), 1.0)
                 return total
             case VDiff(left, right):
-                return self.combine(self.vector(left), 1.0, self.vector(right), -1.0)
+                return self.combine(self.vector(left, phase), 1.0, self.vector(right, phase), -1.0)
             case Cross(left, right):
-                return self.cross(self.vector(left), self.vector(right))
+                return self.cross(self.vector(left, phase), self.vector(right, phase))
             case Towards(start, end):
-                return self.towards(self.point(start), self.point(end))
+                return self.towards(self.point(start, phase), self.point(end, phase))
             case Rotated(inner, axis, angle):
-                return self.turn(self.vector(inner), self.unit(self.vector(axis)), angle)
+                return self.turn(
+                    self.vector(inner, phase), self.unit(self.vector(axis, phase)), angle
+                )
+            case Swing(from_, to):
+                if from_ is None or to is None:
+                    raise DegenerateError
+                return self._swung(from_, to, phase)
+
+    def _swung(self, start: Vector, end: Vector, phase: float) -> int:
+        a, b = (self.unit(self.vector(v, phase)) for v in (start, end))
+        u, v = (
+            paths.unit(self.evaluator.vector(side, self.frames, phase)) for side in (start, end)
+        )
+        angle = 2.0 * math.atan2(float(np.linalg.norm(u - v)), float(np.linalg.norm(u + v)))
+        if not 0.0 < phase < 1.0 or angle < paths.TINY:
+            return b if phase >= 1.0 else a
+        if not math.pi - angle > 1e-6:
+            raise DegenerateError
+        shares = (math.sin(part * angle) / math.sin(angle) for part in (1.0 - phase, phase))
+        first, second = shares
+        return self.unit(self.combine(a, first, b, second))
 
     def towards(self, start: int, end: int) -> int:
         """Entry of the unit vector between two points. Raises DegenerateError."""
@@ -212,14 +237,17 @@ class Tape:
         """
         scale = self.evaluator.scale
         match expr:
-            case FreePoint() | NamedPoint() | WorldPoint():
+            case Was(at=None):
+                raise DegenerateError
+            case FreePoint() | NamedPoint() | WorldPoint() | Was():
                 return self.constant(self.evaluator.point(expr, self.frames))
             case SitePoint(site):
                 return self.site(site)
             case JointPoint(bone):
                 return self.joint(bone)
             case VTranslate(point, vector):
-                return self.combine(self.point(point, phase), 1.0, self.vector(vector), scale)
+                moved = self.vector(vector, phase)
+                return self.combine(self.point(point, phase), 1.0, moved, scale)
             case Between(start, end, fraction):
                 return self.combine(
                     self.point(start, phase), 1.0 - fraction, self.point(end, phase), fraction

@@ -4,18 +4,28 @@ from __future__ import annotations
 
 import pytest
 from evaluations import constraints, problems
-from every_member import CONSTRAINTS, PATHS, POINTS, TIP, VECTORS, title
+from every_member import CONSTRAINTS, OTHER_TIP, PALM, PATHS, POINTS, TIP, VECTORS, title
 
 from azee.lang.constants import CONSTANTS
 from azee.lang.values import Kind
-from azee_solver.constraint import Constraint, Look, LookAt, Transpath
-from azee_solver.geometry import WorldPoint
+from azee_solver.constraint import (
+    BoneAxis,
+    Constraint,
+    Look,
+    LookAt,
+    Orient,
+    Relation,
+    Transpath,
+)
+from azee_solver.geometry import Swing, Was, WorldPoint
 from azee_solver.notation import constraint_text
 
 WRITTEN: list[Constraint] = [
     *CONSTRAINTS,
     *map(Look, VECTORS),
-    *(LookAt(point) for point in POINTS if not isinstance(point, WorldPoint)),
+    *(LookAt(point) for point in POINTS if not isinstance(point, WorldPoint | Was)),
+    LookAt(Was("A", OTHER_TIP)),
+    Orient(BoneAxis.NRM, PALM, Relation.ALONG, Swing(None, None)),
     *(Transpath(TIP, path) for path in PATHS),
 ]
 

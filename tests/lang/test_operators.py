@@ -31,6 +31,7 @@ from azee_solver.constraint import (
 )
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
     Bone,
     Circle,
@@ -49,7 +50,9 @@ from azee_solver.geometry import (
     SigningSpace,
     Site,
     SitePoint,
+    Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -57,6 +60,9 @@ from azee_solver.geometry import (
     Vec,
     VSum,
     VTranslate,
+    Was,
+    Wave,
+    Zigzag,
 )
 
 UP, FWD = Vec(0, 1, 0), Vec(0, 0, 1)
@@ -105,6 +111,8 @@ def test_every_operator_is_in_an_expression_of_these_tests() -> None:
         ("cross ^up ^fwd", Cross(UP, FWD)),
         ("towards @I_TIP(s) ^Mssp", Towards(SitePoint(TIP), MSSP)),
         ("rotated ^up ^fwd 90", Rotated(UP, FWD, math.pi / 2)),
+        ("swing ^up ^fwd", Swing(UP, FWD)),
+        ("was 'A @I_TIP(s)", Was("A", SitePoint(TIP))),
         ("point 0 -.2 .3", FreePoint(0, -0.2, 0.3)),
         ("vtranslate ^Mssp ^up", VTranslate(MSSP, UP)),
         ("between ^Mssp ^Rssp .25", Between(MSSP, RSSP, 0.25)),
@@ -116,7 +124,17 @@ def test_every_operator_is_in_an_expression_of_these_tests() -> None:
         ("arc-vect ^up", Arc(UP)),
         ("circle ^fwd .05 2", Circle(FWD, 0.05, 2)),
         ("circle ^fwd .05", Circle(FWD, 0.05, 1)),
+        ("circle ^fwd .05 'phase 90 'ratio .5", Circle(FWD, 0.05, 1, math.pi / 2, 0.5)),
+        ("spiral ^fwd .02 .08 3", Circle(FWD, 0.02, 3, end_radius_m=0.08)),
+        ("around ^Mssp ^fwd", Around(MSSP, FWD, 1)),
+        ("around ^Mssp ^fwd -.5", Around(MSSP, FWD, -0.5)),
+        ("wave ^up 2", Wave(UP, 2)),
+        ("zigzag ^up", Zigzag(UP, 2)),
+        ("zigzag ^up 5", Zigzag(UP, 5)),
+        ("slide !palm(s)", Slide(PALM, Straight())),
+        ("slide !palm(s) (arc ^up)", Slide(PALM, Arc(UP))),
         ("through ^Rssp @I_TIP(s)", Through((RSSP, SitePoint(TIP)))),
+        ("through (list ^Rssp @I_TIP(s)) ^Mssp", Through((RSSP, SitePoint(TIP), MSSP))),
     ],
 )
 def test_geometry_stays_symbolic(expression: str, expected: object) -> None:
@@ -159,6 +177,11 @@ def test_bones_and_sites_take_side_and_phalanx(expression: str, expected: object
         (
             "orient 'nrm !palm(s) 'along ^up 'within 45",
             Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP, math.pi / 4),
+        ),
+        ("turning 'dir !palm(s)", Orient(BoneAxis.DIR, PALM, Relation.ALONG, Swing(None, None))),
+        (
+            "shift @I_TIP(s) ^up 'from 'A 'within .1",
+            Place(TIP, VTranslate(Was("A", SitePoint(TIP)), UP), within_m=0.1),
         ),
         ("morph 'index_bend s 1 'soft", Morph("index_bend", Side.STRONG, 1.0, math.radians(40))),
         (

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+from itertools import groupby
+
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -75,6 +78,79 @@ def test_a_circle_about_the_upright_begins_in_front() -> None:
 
 def test_half_a_turn_still_ends_at_the_end() -> None:
     np.testing.assert_allclose(paths.circle(A, B, FORWARD, 0.5, 0.5, 1.0), B, atol=1e-12)
+
+
+@pytest.mark.parametrize("hour", range(12))
+def test_a_circle_starts_at_an_hour_of_a_clock(hour: int) -> None:
+    """The signer sees the clock's hands go round the axis that points away."""
+    curve = paths.circle(
+        A, A, FORWARD, 0.5, 1.0, np.linspace(0, 1, 13), phase=math.radians(30 * hour)
+    )
+    centre = np.mean(curve[:12], axis=0)
+    right, up = -(curve - centre)[0, 0], (curve - centre)[0, 1]
+    off = math.degrees(math.atan2(right, up)) - 30 * hour
+    assert (off + 180) % 360 - 180 == pytest.approx(0, abs=1e-6)
+
+
+def test_an_ellipse_is_as_high_as_its_ratio_says() -> None:
+    curve = paths.circle(A, A, FORWARD, 0.5, 1.0, np.linspace(0, 1, 401), ratio=0.4)
+    width, height, depth = np.ptp(curve, axis=0)
+    assert (width, height, depth) == pytest.approx((1.0, 0.4, 0.0), abs=1e-3)
+
+
+def test_a_spiral_grows_evenly() -> None:
+    t = np.linspace(0, 1, 201)
+    curve = paths.circle(A, A, FORWARD, 0.0, 2.0, t, end_radius=0.5)
+    # Its centre travels, since both ends are one point: what is left is the radius.
+    spokes = paths.circle(A, A, FORWARD, 1.0, 2.0, t) + UP
+    centre = curve - 0.5 * t[:, None] * spokes
+    assert np.abs(centre[:, 0]).max() < 1e-9
+    np.testing.assert_allclose(np.diff(centre[:, 1]), -0.5 / 200, atol=1e-9)
+
+
+@given(points, points, points, points, st.floats(-2.5, 2.5))
+def test_around_a_centre_leads_from_start_to_end(
+    start: NDArray[np.float64],
+    end: NDArray[np.float64],
+    centre: NDArray[np.float64],
+    axis: NDArray[np.float64],
+    turns: float,
+) -> None:
+    assume(np.linalg.norm(axis) > 0.1)
+    away = [np.linalg.norm(np.cross(axis, p - centre)) for p in (start, end)]
+    assume(min(away) > 0.01)
+    t = np.linspace(0, 1, 301)
+    curve = paths.around(start, end, centre, axis, turns, t)
+    np.testing.assert_allclose(curve[[0, -1]], [start, end], atol=1e-7)
+    spokes = curve - centre
+    along = axis / np.linalg.norm(axis)
+    radii = np.linalg.norm(np.cross(along, spokes), axis=1)
+    assert np.abs(np.diff(radii, 2)).max() < 1e-9
+    flat = spokes - (spokes @ along)[:, None] * along
+    first = flat[0] / radii[0]
+    angles = np.unwrap(np.arctan2(flat @ np.cross(along, first), flat @ first))
+    assert abs((angles[-1] - angles[0]) / (2 * np.pi) - turns) <= 0.5 + 1e-6
+
+
+def test_a_wave_goes_to_both_sides_so_often() -> None:
+    curve = paths.wave(A, B, 0.3 * UP, 3.0, np.linspace(0, 1, 601))
+    assert curve[:, 1].max() == pytest.approx(0.3)
+    assert curve[:, 1].min() == pytest.approx(-0.3)
+    assert np.count_nonzero(np.diff(np.sign(curve[1:-1, 1]))) in (5, 10)
+    np.testing.assert_allclose(paths.wave(A, B, UP, 1.25, np.array([0.0, 1.0])), [A, B], atol=1e-9)
+
+
+@pytest.mark.parametrize("corners", [1, 2, 5])
+def test_a_zigzag_has_its_corners_on_both_sides_and_stops_there(corners: int) -> None:
+    t = np.linspace(0, 1, 2001)
+    curve = paths.zigzag(A, B, 0.3 * UP, corners, t)
+    np.testing.assert_allclose(curve[[0, -1]], [A, B], atol=1e-12)
+    peaks = [i for i in range(1, 2000) if abs(curve[i, 1]) > 0.3 - 1e-6]
+    sides = [s for s, _ in groupby(np.sign(curve[peaks, 1]))]
+    assert sides == [1.0 if k % 2 == 0 else -1.0 for k in range(corners)]
+    speed = steps(curve)
+    at = round((0.5 / corners) * 2000)
+    assert speed[at - 1 : at + 1].max() < 0.01 * speed.max()
 
 
 def test_a_curve_through_points_meets_them_at_even_speed() -> None:

@@ -34,7 +34,18 @@ from azee_solver.constraint import (
     Transpath,
     Trill,
 )
-from azee_solver.geometry import Bone, Path, Point, Side, Site, Vector
+from azee_solver.geometry import (
+    Bone,
+    Path,
+    Point,
+    Side,
+    Site,
+    SitePoint,
+    Swing,
+    Vector,
+    VTranslate,
+    Was,
+)
 
 TRILL_HZ = 5.0
 TRILL_DEG = 12.0
@@ -64,6 +75,25 @@ def _orient(
         raise at.fault("number-range", message, "bound", help="all directions are less than that")
     bound = math.radians(within)
     return (Orient(BoneAxis(axis), bone, Relation(relation), vector, bound, origin=at.origin),)
+
+
+def _turning(at: Occurrence, axis: str, bone: Bone) -> Constraints:
+    way = Swing(None, None)
+    return (Orient(BoneAxis(axis), bone, Relation.ALONG, way, origin=at.origin),)
+
+
+FROM = "from"
+
+
+def _shift(
+    at: Occurrence, site: Site, vector: Vector, *, contact: bool, within: float, **more: str | None
+) -> Constraints:
+    block = more[FROM]
+    if block is None:
+        message = "`shift` wants the block from whose end it counts"
+        raise at.fault("missing-value", message, help="write `'from 'BLOCK`")
+    point = VTranslate(Was(block, SitePoint(site)), vector)
+    return _place(at, site, point, dist=0.0, contact=contact, within=within)
 
 
 def _look(at: Occurrence, vector: Vector) -> Constraints:
@@ -292,6 +322,34 @@ OPERATORS = (
         _orient,
         "orient 'nrm !palm(s) 'along ^down 'within 25",
         options=(_within("degrees off, anywhere inside which it is met"),),
+    ),
+    _native(
+        "turning",
+        "An axis of a bone is on its way, by the shorter arc: from the direction in which it is "
+        "oriented before to the one after.",
+        (
+            Operand("axis", "its direction or normal", (Kind.SYMBOL,), words=("dir", "nrm")),
+            _BONE,
+        ),
+        _turning,
+        "turning 'nrm !palm(s)",
+    ),
+    _native(
+        "shift",
+        "The site lies where it was when a block ended, moved by a vector in metres of the "
+        "reference signer.",
+        (_SITE, _VECTOR),
+        _shift,
+        "shift @WR(s) (scale ^up .1) 'from 'P1",
+        options=(
+            Option(
+                FROM,
+                "the block from whose end it counts",
+                Operand("block", "the block's name", (Kind.SYMBOL,)),
+            ),
+            Option("contact", "the surfaces may touch here"),
+            _within("metres from where the site should be, anywhere inside which it is met"),
+        ),
     ),
     _native(
         "look",

@@ -6,11 +6,14 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from azee.lang.native import Group, Native, Occurrence, Operand
-from azee.lang.values import Kind
+from azee.lang.machine import Machine
+from azee.lang.native import Group, Native, Occurrence, Operand, Option
+from azee.lang.values import Kind, ListValue, PointValue, SiteValue, Value
 from azee_solver.geometry import (
     Arc,
+    Around,
     Between,
+    Bone,
     Circle,
     Cross,
     Dir,
@@ -21,9 +24,13 @@ from azee_solver.geometry import (
     Opp,
     Out,
     Path,
+    Point,
     Rotated,
     Scale,
+    SitePoint,
+    Slide,
     Straight,
+    Swing,
     Through,
     Towards,
     Unit,
@@ -32,6 +39,9 @@ from azee_solver.geometry import (
     Vector,
     VSum,
     VTranslate,
+    Was,
+    Wave,
+    Zigzag,
 )
 
 
@@ -60,10 +70,84 @@ def _rotated(vector: Vector, axis: Vector, angle_deg: float) -> Vector:
     return Rotated(vector, axis, math.radians(angle_deg))
 
 
-def _circle(at: Occurrence, axis: Vector, radius_m: float, turns: float = 1.0) -> Path:
+_RATIO = "the ratio of height and width of a circle is greater than 0"
+
+
+def _circle(
+    at: Occurrence,
+    axis: Vector,
+    radius_m: float,
+    turns: float = 1.0,
+    *,
+    phase: float,
+    ratio: float,
+) -> Path:
     if radius_m <= 0:
         raise at.fault("number-range", "the radius of a circle is greater than 0", "radius")
-    return Circle(axis, radius_m, turns)
+    if ratio <= 0:
+        raise at.fault("number-range", _RATIO, "ratio")
+    return Circle(axis, radius_m, turns, math.radians(phase), ratio)
+
+
+def _spiral(
+    at: Occurrence,
+    axis: Vector,
+    radius_m: float,
+    last_m: float,
+    turns: float = 1.0,
+    *,
+    phase: float,
+    ratio: float,
+) -> Path:
+    if min(radius_m, last_m) < 0 or not max(radius_m, last_m):
+        message = "the radii of a spiral are 0 or more, and one of them is greater"
+        raise at.fault("number-range", message, "radius")
+    if ratio <= 0:
+        raise at.fault("number-range", _RATIO, "ratio")
+    return Circle(axis, radius_m, turns, math.radians(phase), ratio, last_m)
+
+
+def _around(centre: Point, axis: Vector, turns: float = 1.0) -> Path:
+    return Around(centre, axis, turns)
+
+
+def _wave(at: Occurrence, side: Vector, waves: float = 1.0) -> Path:
+    if waves <= 0:
+        raise at.fault("number-range", "there are more than 0 waves", "number")
+    return Wave(side, waves)
+
+
+MOST_CORNERS = 1000
+"""More corners on one way than any body shows."""
+
+
+def _zigzag(at: Occurrence, side: Vector, corners: float = 2.0) -> Path:
+    if not (corners == int(corners) and 1 <= corners <= MOST_CORNERS):
+        message = f"the corners of a zigzag are a whole number from 1 to {MOST_CORNERS}"
+        raise at.fault("number-range", message, "number")
+    return Zigzag(side, int(corners))
+
+
+def _slide(bone: Bone, path: Path = Straight()) -> Path:  # noqa: B008 - it is frozen
+    return Slide(bone, path)
+
+
+def _through(at: Occurrence, machine: Machine, values: tuple[Value, ...]) -> Path:
+    points: list[Point] = []
+    for i, value in enumerate(values):
+        for item in value.content if isinstance(value, ListValue) else (value,):
+            machine.spend(1, at.span)
+            if isinstance(item, SiteValue):
+                points.append(SitePoint(item.content))
+            elif isinstance(item, PointValue):
+                points.append(item.content)
+            else:
+                message = f"`through` wants points, not {item.kind.value}"
+                label = f"this holds {item.kind.value}"
+                raise at.fault("wrong-type", message, "point", i, label=label)
+    if not points:
+        raise at.fault("number-range", "`through` wants at least one point")
+    return Through(tuple(points))
 
 
 def _native(
@@ -74,6 +158,8 @@ def _native(
     function: Callable[..., Any],
     example: str,
     *,
+    options: tuple[Option, ...] = (),
+    uses_machine: bool = False,
     published: bool = False,
     only_name_published: bool = False,
 ) -> Native:
@@ -82,6 +168,8 @@ def _native(
         Group.GEOMETRY,
         meaning,
         operands,
+        options,
+        uses_machine=uses_machine,
         result=result,
         function=function,
         example=example,
@@ -89,6 +177,18 @@ def _native(
         only_name_published=only_name_published,
     )
 
+
+_TURNS = Operand("turns", "how many", (Kind.NUMBER,), optional=True)
+_RING = (
+    Option(
+        "phase",
+        "degrees beyond the highest point at which it starts: 30 for each hour of a clock whose "
+        "hands go round the axis",
+        _number("phase", "degrees"),
+        0.0,
+    ),
+    Option("ratio", "its height over its width, for an ellipse", _number("ratio", "height"), 1.0),
+)
 
 _XYZ = (
     _number("x", "metres to the signer's left"),
@@ -206,6 +306,23 @@ OPERATORS = (
         "rotated ^fwd ^up 30",
     ),
     _native(
+        "swing",
+        "A dynamic direction: on the shorter arc from one to another while its block lasts.",
+        (_vector("start"), _vector("end")),
+        Kind.VECTOR,
+        _builds(Swing),
+        "swing ^up ^fwd",
+    ),
+    _native(
+        "was",
+        "Where a point was when another block ended: one beside the block in which this stands, "
+        "or beside one around it.",
+        (Operand("block", "the block's name", (Kind.SYMBOL,)), _point()),
+        Kind.POINT,
+        _builds(Was),
+        "was 'P1 @WR(s)",
+    ),
+    _native(
         "point",
         "A point in metres of a reference signer, from the middle of the shoulder line; "
         "scaled by arm length to the body that plays.",
@@ -283,18 +400,78 @@ OPERATORS = (
         (
             _vector("axis"),
             _number("radius", "metres of the reference signer"),
-            Operand("turns", "how many", (Kind.NUMBER,), optional=True),
+            _TURNS,
         ),
         Kind.PATH,
         _circle,
-        "circle ^fwd .05 2",
+        "circle ^fwd .05 2 'phase 90",
+        options=_RING,
+    ),
+    _native(
+        "spiral",
+        "A circle whose radius changes evenly on the way.",
+        (
+            _vector("axis"),
+            _number("radius", "metres of the reference signer at the start"),
+            _number("last", "the same at the end"),
+            _TURNS,
+        ),
+        Kind.PATH,
+        _spiral,
+        "spiral ^fwd .02 .08 3",
+        options=_RING,
+    ),
+    _native(
+        "around",
+        "About a point, right-handed about the axis, as far from it as start and end are. The "
+        "turn is the one from start to end that is nearest to so many, one unless said.",
+        (_point("centre", "the centre"), _vector("axis"), _TURNS),
+        Kind.PATH,
+        _builds(_around),
+        "around ^Mssp ^fwd .5",
+    ),
+    _native(
+        "wave",
+        "To and fro along a vector, to either side by its length, so many times on the way.",
+        (_vector("side"), Operand("number", "how many", (Kind.NUMBER,), optional=True)),
+        Kind.PATH,
+        _wave,
+        "wave (scale ^up .03) 2",
+    ),
+    _native(
+        "zigzag",
+        "With corners on either side of the way by turns, two unless said, first to that of the "
+        "vector and by its length. The site nearly stops at each.",
+        (_vector("side"), Operand("number", "how many corners", (Kind.NUMBER,), optional=True)),
+        Kind.PATH,
+        _zigzag,
+        "zigzag (scale ^up .04) 5",
+    ),
+    _native(
+        "slide",
+        "A path, the straight one unless said, laid on the skin of a part of the body. The site "
+        "touches that part all the way.",
+        (_BONE, Operand("path", "a path", (Kind.PATH,), optional=True)),
+        Kind.PATH,
+        _builds(_slide),
+        "slide !f_arm(w)",
     ),
     _native(
         "through",
-        "A centripetal Catmull–Rom curve through points.",
-        (Operand("point", "a point", (Kind.POINT,), rest=True, least=1),),
+        "A centripetal Catmull–Rom curve through points, or through those of a list.",
+        (
+            Operand(
+                "point",
+                "points or lists of them",
+                (Kind.POINT, Kind.LIST),
+                rest=True,
+                least=1,
+                raw=True,
+            ),
+        ),
         Kind.PATH,
-        _builds(Through),
+        _through,
         "through ^Rssp ^Mssp ^Lssp",
+        uses_machine=True,
     ),
 )

@@ -27,9 +27,27 @@ from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
 from azee_rig.chain import Frames
 from azee_solver import kinematics
-from azee_solver.constraint import LookAt, Place, Transpath
+from azee_solver.constraint import (
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
 from azee_solver.evaluate import Evaluator
-from azee_solver.geometry import Bone, Point, Side, WorldPoint, depends_on
+from azee_solver.geometry import (
+    Bone,
+    Point,
+    Side,
+    Site,
+    SitePoint,
+    Slide,
+    WorldPoint,
+    depends_on,
+)
 from azee_solver.task import Task
 
 Array = NDArray[np.float64]
@@ -67,6 +85,15 @@ class PathMotion:
         """The transpath."""
         assert isinstance(self.task.constraint, Transpath)
         return self.task.constraint
+
+    @property
+    def touching(self) -> tuple[Site, ...]:
+        """The sites at the ends of a path on the skin: the part that they are on is touched."""
+        if not isinstance(self.constraint.path, Slide):
+            return ()
+        ends = [task.constraint for task in (self.before, self.after) if task is not None]
+        points = [place.point for place in ends if isinstance(place, Place)]
+        return tuple(dict.fromkeys(p.site for p in points if isinstance(p, SitePoint)))
 
     @property
     def between(self) -> Interval:
@@ -152,9 +179,10 @@ class AnchoredPath:
     def ik_task(self, point: Array) -> Task:
         """Return the placement of the site on a point of its path."""
         task = self.motion.task
+        x, y, z = point.tolist()
         place = Place(
             self.motion.constraint.site,
-            WorldPoint(*(float(x) for x in point)),
+            WorldPoint(x, y, z, self.motion.touching),
             origin=task.constraint.origin,
         )
         return Task(place, task.path, task.interval.start, task.rank)
@@ -307,10 +335,16 @@ def path_sample_times(path: AnchoredPath, frames: Frames, evaluator: Evaluator) 
 
 def target_sample_times(task: TimedTask, frames: Frames, evaluator: Evaluator) -> list[Fraction]:
     """Return instants at which to sample a moving target. `frames`: one posture."""
-    assert isinstance(task.constraint, Place | LookAt)
-    point = task.constraint.point
-    phases = np.linspace(0.0, 1.0, _PATH_POINTS)
-    points = np.stack([evaluator.point(point, frames, float(s)) for s in phases])
+    phases = [float(s) for s in np.linspace(0.0, 1.0, _PATH_POINTS)]
+    match task.constraint:
+        case Place(point=point) | LookAt(point=point):
+            points = np.stack([evaluator.point(point, frames, s) for s in phases])
+        case Orient(vector=vector) | Look(vector=vector):
+            # Directions as points a turn of `SAMPLE_TURN_RAD` apart.
+            size = SAMPLE_LENGTH_M / SAMPLE_TURN_RAD
+            points = size * np.stack([evaluator.vector(vector, frames, s) for s in phases])
+        case Morph() | Trill() | Rotate() | Transpath():
+            return []
     requirement = task.requirement
     return [t for t in sample_times(points, requirement.motion) if requirement.covers(t)]
 

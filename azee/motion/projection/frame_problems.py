@@ -163,14 +163,16 @@ class FrameProblems:
         presets = evaluator.binding.presets(asked)
         for v in evaluator.binding.yielding(asked):
             del presets[v]  # key postures have decided how far it yields
-        body = Body(rig, evaluator, idle, presets, self.options, now.touches)
+        on_paths = [path.ik_task(_SOMEWHERE).constraint for path in now.paths]
+        touches = (*now.touches, *on_paths)
+        body = Body(rig, evaluator, idle, presets, self.options, touches)
         count = len(now.tasks)
         tasks = {i: t.ik_task(time) for i, t in enumerate(now.tasks) if _has_rows(t)}
         tasks |= {count + i: path.ik_task(_SOMEWHERE) for i, path in enumerate(now.paths)}
         ranked = (*now.tasks, *(path.motion.task for path in now.paths))
         factors = {i: self.factors.get(task.rank, 1.0) for i, task in enumerate(ranked)}
         tape = self._tape(body.frames(idle))
-        residuals = lower(tape, tasks, self.options.tolerance, factors, drawn=False)
+        residuals = lower(tape, tasks, self.options.tolerance, factors, drawn=False, inside=True)
         free = self._free(now, presets)
         nothing, comfort = np.zeros(len(idle)), np.full(len(idle), COMFORT * self.options.comfort)
         program = Program(
@@ -224,7 +226,7 @@ class FrameProblems:
             tape = self._tape(Frames(frames.positions[k], frames.rotations[k]))
             now = {i: problem.now.tasks[i].ik_task(times[t]) for i in moving}
             tasks = {**problem.tasks, **now}
-            asked = lower(tape, tasks, self.options.tolerance, {}, drawn=False).rows
+            asked = lower(tape, tasks, self.options.tolerance, {}, drawn=False, inside=True).rows
             numbers.append(used_entries(tape, asked))
         # What differs in one frame is filled in for all of them: they share one tape.
         differs = np.any(np.stack(numbers) != problem.program.tape_numbers, axis=(0, 2))

@@ -27,13 +27,28 @@ from azee_solver.constraint import (
 from azee_solver.footprint import footprint
 from azee_solver.geometry import (
     Between,
+    Cross,
+    Dir,
     FreePoint,
     JointPoint,
     Moving,
     NamedPoint,
+    Nrm,
+    Opp,
+    Out,
     Point,
+    Rotated,
+    Scale,
     SitePoint,
+    Swing,
+    Towards,
+    Unit,
+    VDiff,
+    Vec,
+    Vector,
+    VSum,
     VTranslate,
+    Was,
     WorldPoint,
     depends_on,
 )
@@ -150,7 +165,13 @@ def _timed_task(requirement: Requirement, rig: Rig, binding: Binding, limbs: Lim
     elif binding.is_skeletal(constraint):
         moves = affected = frozenset(binding.preset(constraint))
     reads = affected - moves
-    dynamic = isinstance(constraint, Place | LookAt) and has_moving(constraint.point)
+    match constraint:
+        case Place(point=point) | LookAt(point=point):
+            dynamic = has_moving(point)
+        case Orient(vector=vector) | Look(vector=vector):
+            dynamic = has_swing(vector)
+        case Morph() | Trill() | Rotate() | Transpath():
+            dynamic = False
     return TimedTask(
         requirement, limb, moves, reads, limbs.touching(moves), limbs.touching(reads), dynamic
     )
@@ -176,9 +197,26 @@ def has_moving(point: Point) -> bool:
     match point:
         case Moving():
             return True
-        case VTranslate(point=inner):
-            return has_moving(inner)
+        case VTranslate(inner, vector):
+            return has_moving(inner) or has_swing(vector)
         case Between(start=start, end=end):
             return has_moving(start) or has_moving(end)
-        case FreePoint() | NamedPoint() | SitePoint() | JointPoint() | WorldPoint():
+        case FreePoint() | NamedPoint() | SitePoint() | JointPoint() | WorldPoint() | Was():
+            return False
+
+
+def has_swing(vector: Vector) -> bool:
+    """Whether a direction swings while its block lasts."""
+    match vector:
+        case Swing():
+            return True
+        case Opp(inner) | Unit(inner) | Scale(inner):
+            return has_swing(inner)
+        case VSum(inners):
+            return any(map(has_swing, inners))
+        case VDiff(a, b) | Cross(a, b) | Rotated(a, b):
+            return has_swing(a) or has_swing(b)
+        case Towards(start, end):
+            return has_moving(start) or has_moving(end)
+        case Vec() | Out() | Dir() | Nrm():
             return False

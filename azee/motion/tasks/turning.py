@@ -1,0 +1,97 @@
+"""Orientations on their way: `turning` gets its ends from the orientations before and after."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from fractions import Fraction
+
+from azee.motion.tasks.flatten import flatten
+from azee.motion.tasks.requirement import Requirement
+from azee.score.score import Group, Key, Score
+from azee_solver.constraint import BoneAxis, Constraint, Orient, Relation
+from azee_solver.geometry import Side, Swing
+
+LONGEST_WAIT_S = Fraction(3, 5)
+"""Orientations farther away than this in time are not the ends of a turn, as with paths."""
+
+
+def with_turns(score: Score, dominant: Side) -> Score:
+    """Return a score in which every turn knows from where to where it leads.
+
+    A turn without an orientation of the same axis before or after it asks for nothing.
+    """
+    required = flatten(score).requirements
+    turns = [r for r in required if is_turn(r.constraint)]
+    if not turns:
+        return score
+    known = [r for r in required if _is_end(r.constraint)]
+    ways: dict[tuple[tuple[str, ...], Constraint], Orient | None] = {}
+    for turn in turns:
+        own = _axis(turn.constraint, dominant)
+        same = [r for r in known if _axis(r.constraint, dominant) == own]
+        ways[turn.path, turn.constraint] = _way(turn, same)
+    return _rebuilt(score, ways, ())
+
+
+def is_turn(constraint: Constraint) -> bool:
+    """Whether a constraint is an orientation whose ends are those around it."""
+    return isinstance(constraint, Orient) and constraint.vector == Swing(None, None)
+
+
+def _is_end(constraint: Constraint) -> bool:
+    return (
+        isinstance(constraint, Orient)
+        and constraint.relation is Relation.ALONG
+        and not is_turn(constraint)
+    )
+
+
+def _axis(constraint: Constraint, dominant: Side) -> tuple[BoneAxis, str]:
+    assert isinstance(constraint, Orient)
+    return constraint.axis, constraint.bone.key(dominant)
+
+
+def _way(turn: Requirement, ends: Iterable[Requirement]) -> Orient | None:
+    """Return the swing between the nearest orientations before and after, with their wider bound.
+
+    None where there is none on one side.
+    """
+    own = turn.interval
+    earlier, later = [], []
+    for end in ends:
+        span = end.interval
+        if span.start <= own.start and own.start - LONGEST_WAIT_S <= span.end < own.end:
+            earlier.append(end)
+        if span.end >= own.end and own.start < span.start <= own.end + LONGEST_WAIT_S:
+            later.append(end)
+    before = max(earlier, key=lambda r: r.interval.end, default=None)
+    after = min(later, key=lambda r: r.interval.start, default=None)
+    if before is None or after is None:
+        return None
+    first, last, way = before.constraint, after.constraint, turn.constraint
+    assert isinstance(first, Orient)
+    assert isinstance(last, Orient)
+    assert isinstance(way, Orient)
+    bound = max(first.within_rad, last.within_rad)
+    return replace(way, vector=Swing(first.vector, last.vector), within_rad=bound)
+
+
+def _rebuilt(
+    score: Score,
+    ways: dict[tuple[tuple[str, ...], Constraint], Orient | None],
+    path: tuple[str, ...],
+) -> Score:
+    if isinstance(score, Group):
+        blocks = (replace(b, score=_rebuilt(b.score, ways, (*path, b.name))) for b in score.blocks)
+        return replace(score, blocks=tuple(blocks))
+    if not isinstance(score, Key):
+        return score
+    constraints: list[Constraint] = []
+    for constraint in score.constraints:
+        if isinstance(constraint, Orient) and is_turn(constraint):
+            way = ways[path, constraint]
+            constraints += [] if way is None else [way]
+        else:
+            constraints.append(constraint)
+    return replace(score, constraints=tuple(constraints))

@@ -6,16 +6,17 @@ moment to the next is one block; what changes is said at the moments, and the bo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from azee.lexicon.constraint_text import orientation_text, place_text, way_text
+from azee.lexicon.constraint_text import orientation_text, place_text, vector_text, way_text
 from azee.lexicon.hand_text import Told, hand_text
 from azee.lexicon.layout import Line, block_lines, key_lines
 from azee.lexicon.numbers import number
-from azee.lexicon.phrase import CircleWay, Moment, Move, Phrase
-from azee.lexicon.places import other
+from azee.lexicon.phrase import CircleWay, Moment, Move, Phrase, StraightWay
+from azee.lexicon.places import Site, other
 from azee.lexicon.sizes import HELD_S
+from azee.lexicon.vectors import Vector
 
 _SAME_S = 2e-3
 """Times that are nearer to each other are the same."""
@@ -50,17 +51,36 @@ def part_blocks(phrase: Phrase, names: Sequence[str], told: Told) -> list[Block]
     whole = [c for r in runs if _is_whole(r, whole_s) for c in r.constraints]
     first = key_lines(whole_s, whole) if whole else [(0, f"blank {number(whole_s)}")]
     blocks = [Block("HANDS", tuple(first), None)]
-    ways = [_Run(m.start_s + HELD_S, m.end_s + HELD_S, (text,)) for m, text in _ways(phrase, told)]
+    postures = list(_grouped([r for r in runs if not _is_whole(r, whole_s)]))
+    ending = {_mark(run.end_s): f"P{i}" for i, run in enumerate(postures, start=1)}
+    ways = [
+        _Run(move.start_s + HELD_S, move.end_s + HELD_S, (text,))
+        for name in names
+        for move, text in _ways(phrase, name, told)
+    ]
     tremors = [_Run(t.start_s + HELD_S, t.end_s + HELD_S, (t.text,)) for t in phrase.tremors]
-    groups = (("P", [r for r in runs if not _is_whole(r, whole_s)]), ("M", ways), ("T", tremors))
+    groups = (("P", postures), ("M", list(_grouped(ways))), ("T", list(_grouped(tremors))))
     for letter, found in groups:
-        for i, run in enumerate(_grouped(found), start=1):
+        for i, run in enumerate(found, start=1):
             start = "'start 'HANDS:start"
             if run.start_s > _SAME_S:
                 start += f":{number(run.start_s)}"
-            score = key_lines(run.end_s - run.start_s, run.constraints)
+            constraints = [_marked(constraint, ending) for constraint in run.constraints]
+            score = key_lines(run.end_s - run.start_s, constraints)
             blocks.append(Block(f"{letter}{i}", tuple(score), start))
     return blocks
+
+
+def _mark(time_s: float) -> str:
+    """Return what stands for the name of the block that ends at a time, until it has one."""
+    return f"<{time_s:.3f}>"
+
+
+def _marked(constraint: str, ending: Mapping[str, str]) -> str:
+    """Return a constraint with the names of blocks."""
+    for mark, name in ending.items():
+        constraint = constraint.replace(mark, name)
+    return constraint
 
 
 def _is_whole(run: _Run, whole_s: float) -> bool:
@@ -87,11 +107,45 @@ def _runs(phrase: Phrase, name: str, told: Told) -> Iterator[_Run]:
     ]
     turned = [tuple(orientation_text(m.hand, name)) for m in moments]
     stays = not any(move.name == name for move in phrase.moves)
-    placed = [tuple(place_text(m.hand, name, stays=stays)) for m in moments]
+    placed = [tuple(_placed(before, m, stays=stays)) for before, m in _with_before(moments)]
     moves = [move for move in phrase.moves if move.name == name and not _is_carried(move, phrase)]
     yield from _aspect(moments, shapes, [], phrase.duration_s)
     yield from _aspect(moments, turned, [], phrase.duration_s)
     yield from _aspect(moments, placed, moves, phrase.duration_s)
+
+
+def _with_before(moments: Sequence[Moment]) -> Iterator[tuple[Moment | None, Moment]]:
+    """Yield moments, each with the one before it."""
+    yield from zip((None, *moments[:-1]), moments, strict=True)
+
+
+def _placed(before: Moment | None, moment: Moment, *, stays: bool) -> list[str]:
+    """Return the constraint on where a hand is: at a place, or so far from where it was."""
+    way = _way(before, moment)
+    if before is None or way is None:
+        return place_text(moment.hand, moment.name, stays=stays)
+    place, site = moment.hand.place, _moving_site(before, moment)
+    assert place is not None
+    if place.is_space and site == moment.hand.site:
+        return place_text(moment.hand, moment.name, stays=stays)
+    vector = vector_text(way, moment.name)
+    return [f"shift {site.text} {vector} 'from '{_mark(before.time_s + HELD_S)}"]
+
+
+def _way(before: Moment | None, moment: Moment) -> Vector | None:
+    """Return how far a hand moved since a moment, if it is said so."""
+    if before is None or before.hand.place is None or moment.hand.place is None:
+        return None
+    return moment.hand.place.way_from(before.hand.place)
+
+
+def _moving_site(before: Moment, moment: Moment) -> Site:
+    """Return what moves: the site that is placed, or the palm if the hand turns or changes."""
+    hand, old = moment.hand, before.hand
+    turns = (old.pointing, old.facing, old.shape) != (hand.pointing, hand.facing, hand.shape)
+    if turns or hand.site is None or hand.site != old.site:
+        return Site("PA", moment.name)
+    return hand.site
 
 
 def _moments(phrase: Phrase, name: str) -> list[Moment]:
@@ -155,19 +209,38 @@ def _ends(move: Move, phrase: Phrase) -> tuple[Moment | None, Moment | None]:
     return before, after
 
 
-def _ways(phrase: Phrase, told: Told) -> Iterator[tuple[Move, str]]:
-    """Yield the ways that a site can keep to, from one moment at which it is placed to the next."""
+def _ways(phrase: Phrase, name: str, told: Told) -> Iterator[tuple[Move, str]]:
+    """Yield the ways from one moment at which a hand is placed to the next."""
     for move in phrase.moves:
+        if move.name != name or _is_carried(move, phrase):
+            continue
         before, after = _ends(move, phrase)
         if before is None or after is None:
-            told("way-between", "a way that does not end where a posture is said is not written")
+            if not isinstance(move.way, StraightWay):
+                told("way-between", "a curve between moments of which nothing is said is straight")
             continue
         if before.hand.place is None or after.hand.place is None or after.hand.site is None:
             continue
-        if before.hand.site != after.hand.site:
-            told("site-changes", "the part of the hand that is placed changes on the way")
-            continue
-        same = before.hand.place == after.hand.place
-        if _is_carried(move, phrase) or (same and not isinstance(move.way, CircleWay)):
-            continue
-        yield move, f"transpath {after.hand.site.text} {way_text(move.way, move.name)}"
+        text = _way_text(move, before, after, told)
+        if text is not None:
+            yield move, text
+
+
+def _way_text(move: Move, before: Moment, after: Moment, told: Told) -> str | None:
+    """Return the constraint that keeps a hand on its way; None where nothing needs to."""
+    path = way_text(move.way, move.name)
+    way = _way(before, after)
+    if before.hand.place == after.hand.place and not isinstance(move.way, CircleWay):
+        return None
+    site = after.hand.site if way is None else _moving_site(before, after)
+    assert site is not None
+    if site in (before.hand.site, after.hand.site) and before.hand.site == after.hand.site:
+        return f"transpath {site.text} {path}"
+    if isinstance(move.way, StraightWay):
+        return None
+    if way is None:
+        told("site-changes", "a curve on which the part of the hand changes is left out")
+        return None
+    start = f"was('{_mark(before.time_s + HELD_S)}, {site.text})"
+    end = f"vtranslate({start}, {vector_text(way, move.name)})"
+    return f"place {site.text} moving({path}, {start}, {end})"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from azee.lexicon.hands import Hand
 from azee.lexicon.numbers import number
-from azee.lexicon.phrase import ArcWay, CircleWay, StraightWay, Way
+from azee.lexicon.phrase import ArcWay, CircleWay, StraightWay, Way, ZigzagWay
 from azee.lexicon.places import Place
 from azee.lexicon.vectors import Vector, is_close, length
 
@@ -80,14 +80,23 @@ def way_text(way: Way, name: str) -> str:
         case StraightWay():
             return "straight"
         case ArcWay():
-            return f"arc({_call('way', _parts(way.bulge, name, least=_LEAST_M), name)})"
+            return f"arc({vector_text(way.bulge, name)})"
         case CircleWay():
             axis = [
                 f"'{word} = {number(x)}"
                 for word, x in zip(("leftward", "up", "fwd"), way.axis, strict=True)
                 if abs(x) > _LEAST_PART
             ]
-            return f"circle(:axis({', '.join(axis)}), {number(way.radius_m)}, {number(way.turns)})"
+            text = f"circle(:axis({', '.join(axis)}), {number(way.radius_m)}, {number(way.turns)}"
+            text += f", 'phase, {way.phase}" if way.phase else ""
+            return text + (f", 'ratio, {number(way.ratio)})" if way.ratio != 1 else ")")
+        case ZigzagWay():
+            return f"{'wave' if way.is_wave else 'zigzag'}({vector_text(way.side, name)}, 3)"
+
+
+def vector_text(vector: Vector, name: str) -> str:
+    """Return a way in metres, seen from a hand."""
+    return _call("way", _parts(vector, name, least=_LEAST_M), name)
 
 
 def _parts(vector: Vector, name: str, *, least: float, always: tuple[str, ...] = ()) -> list[str]:

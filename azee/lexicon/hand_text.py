@@ -8,6 +8,16 @@ from azee.lexicon.hand_sites import FINGER
 from azee.lexicon.model import BENDS, Form, HandShape, bend_of
 from azee.lexicon.numbers import number
 
+_BETWEEN_THUMBS = {
+    frozenset(("beside", "out")): ".thumb('spread = .45)",
+    frozenset(("beside", "across")): ".thumb('opposed = .35, 'bend = .2)",
+    frozenset(("beside", "opposed")): ".thumb('opposed = .4, 'spread = .2)",
+    frozenset(("out", "across")): ".thumb('opposed = .3, 'spread = .3, 'bend = .15)",
+    frozenset(("out", "opposed")): ".thumb('opposed = .4, 'spread = .6)",
+    frozenset(("across", "opposed")): ".thumb('opposed = .8, 'spread = .15, 'bend = .2)",
+}
+"""Thumbs halfway between two positions; the weights are ours."""
+
 Told = Callable[[str, str], None]
 """Notes an approximation: its kind, and what it is."""
 
@@ -89,10 +99,31 @@ def _rule(shape: HandShape, hand: str) -> str:
         bend = _between(bend, bend_of(shape.second.bend))
     if bend != BENDS["straight"] and form.base != "fist":
         arguments.append(f"'bend = {_bend(bend)}")
-    if form.thumb:
+    if _is_between_thumbs(shape):
+        arguments.append(f"'thumb = {_thumb_between(shape)}")
+    elif form.thumb:
         arguments.append(f"'thumb = {_thumb(form)}")
     name = {"flat": "flathand"}.get(form.base, form.base)
     return f":#ham{name}" + (f"({', '.join(arguments)})" if arguments else "")
+
+
+def _is_between_thumbs(shape: HandShape) -> bool:
+    return shape.second is not None and _thumb_at(shape.form) != _thumb_at(shape.second)
+
+
+def _thumb_at(form: Form) -> str:
+    """Return where a thumb is: as said, or where the form has it."""
+    if form.thumb:
+        return form.thumb
+    if _is_ring(form.base):
+        return "opposed"
+    return "beside" if form.base in ("flat", "fist") else "across"
+
+
+def _thumb_between(shape: HandShape) -> str:
+    """Return a thumb halfway between those of two forms."""
+    assert shape.second is not None
+    return _BETWEEN_THUMBS[frozenset((_thumb_at(shape.form), _thumb_at(shape.second)))]
 
 
 def _thumb(form: Form) -> str:
@@ -118,14 +149,10 @@ def _finger_by_finger(shape: HandShape, hand: str, told: Told) -> list[str]:
     if spread:
         arguments.append(f"'spread = {number(spread)}")
     thumb, touch = _ring_thumb(shape, hand, bends) if _is_ring(form.base) else (_thumb(form), [])
-    if not _is_ring(form.base) and form.thumb is None and _is_ring_between(shape):
-        thumb = ".thumb-opposed"
+    if _is_between_thumbs(shape):
+        thumb, touch = _thumb_between(shape), []
     arguments.append(f"'thumb = {thumb}")
     return [f":#hand-of({', '.join(arguments)})", *touch, *_crossing(shape, hand, told)]
-
-
-def _is_ring_between(shape: HandShape) -> bool:
-    return shape.second is not None and _is_ring(shape.second.base)
 
 
 def _ring_thumb(
@@ -154,7 +181,7 @@ def _bends(form: Form, fingers: str) -> dict[str, tuple[float, float]]:
         elif form.base in _PINCHED:
             bends[digit] = _with(_PINCHED[form.base], form.bend)
         elif form.base.startswith("cee"):
-            bends[digit] = bend_of(form.bend or "round")
+            bends[digit] = _opened(bend_of(form.bend or "round"), form.opening)
         else:
             bends[digit] = bend_of(form.bend)
     return bends
@@ -163,6 +190,12 @@ def _bends(form: Form, fingers: str) -> dict[str, tuple[float, float]]:
 def _with(pinched: tuple[float, float], bend: str | None) -> tuple[float, float]:
     """Return the fingers of a pinch that is bent in another way than usual."""
     return pinched if bend is None else _between(pinched, bend_of(bend))
+
+
+def _opened(bend: tuple[float, float], opening: str | None) -> tuple[float, float]:
+    """Return the fingers of a cee that is wider or narrower than usual."""
+    factor = {"slack": 0.7, "tight": 1.25}.get(opening or "", 1.0)
+    return round(bend[0] * factor, 3), round(bend[1] * factor, 3)
 
 
 def _between(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
@@ -196,12 +229,7 @@ def _crossing(shape: HandShape, hand: str, told: Told) -> list[str]:
 
 
 def _tell_losses(shape: HandShape, told: Told) -> None:
-    form = shape.form
-    if shape.second and form.thumb != shape.second.thumb:
-        told("thumb-between", "a thumb between two positions is at the first")
     if shape.thumb_enclosed:
         told("thumb-enclosed", "a thumb within the fist is over the index")
-    if form.opening:
-        told("opening", f"an opening that is {form.opening} is the usual one")
     if any(digit == "1" for digit, _ in shape.bends):
         told("thumb-bend", "the bend of a single thumb is not written")

@@ -26,7 +26,17 @@ from azee.lexicon.model import (
     Together,
     Wrist,
 )
-from azee.lexicon.phrase import ArcWay, CircleWay, Moment, Move, Phrase, StraightWay, Way, joined
+from azee.lexicon.phrase import (
+    ArcWay,
+    CircleWay,
+    Moment,
+    Move,
+    Phrase,
+    StraightWay,
+    Way,
+    ZigzagWay,
+    joined,
+)
 from azee.lexicon.phrase import together as stretched_together
 from azee.lexicon.places import other
 from azee.lexicon.posing import Posing
@@ -34,13 +44,15 @@ from azee.lexicon.sizes import (
     BACK,
     BULGE,
     RADIUS_M,
+    SHIFT_M,
     STEP_S,
     STRAIGHT_M,
     TURN_S,
+    ZIGZAG_M,
     slowness,
 )
 from azee.lexicon.tremors import finger_play, wrist_tremor
-from azee.lexicon.vectors import Vector, is_close, times
+from azee.lexicon.vectors import ZERO, Vector, is_close, times
 
 MOST_STEPS = 400
 """The most single movements of a sign; more are a notation that repeats repetitions."""
@@ -55,6 +67,10 @@ TIMES = {
     "swap": 1,
 }
 """How often a repetition is done."""
+_HOURS = {"u": 0, "ur": 45, "r": 90, "dr": 135, "d": 180, "dl": 225, "l": 270, "ul": 315}
+"""Degrees on a clock face."""
+_RATIOS = {None: 1.0, "h": 0.5, "v": 2.0, "u": 2.0, "l": 0.5, "r": 0.5, "d": 2.0}
+"""The height of ellipses over their width, by how they lie."""
 _AGAIN = 0.85
 """How long the second time takes, compared with the first."""
 
@@ -171,8 +187,6 @@ class Mover:
         heading = direction(move.heading)
         size_m = STRAIGHT_M[move.size]
         length_s = STEP_S * slow * (1.1 if move.curve else 1)
-        if move.zigzag:
-            self.told("zigzag", "a zigzag or wavy line is straight")
         if move.brushed:
             self.told("brushing", "what is touched on the way is not")
         ways: dict[str, tuple[Vector, Way]] = {}
@@ -182,6 +196,9 @@ class Mover:
             if move.curve:
                 size = BULGE[move.curve_size] * size_m
                 way = ArcWay(flipped(times(bulge(heading, move.curve), size), flip))
+            elif move.zigzag:
+                side = times(bulge(heading, "l" if heading[1] else "u"), ZIGZAG_M)
+                way = ZigzagWay(flipped(side, flip), is_wave=move.zigzag == "wavy")
             ways[name] = flipped(times(heading, size_m), flip), way
         hands = _moved(hands, {name: vector for name, (vector, _) in ways.items()})
         moves = [Move(0, length_s, name, way, hands[name].site) for name, (_, way) in ways.items()]
@@ -191,27 +208,36 @@ class Mover:
         self, move: Circle, hands: Hands, sides: Sides, slow: float
     ) -> tuple[Phrase, Hands]:
         axis = direction(move.axis)
-        if self._alternates:
-            self.told("out-of-phase", "hands that alternate in circles go together")
-        if move.start not in (None, "u"):
-            self.told("circle-start", f"a circle that starts at {move.start} starts where it can")
-        if move.end:
-            self.told("circle-part", "a part of a circle is a whole one")
-        if move.ellipse:
-            self.told("ellipse", "an ellipse is a circle")
-        length_s = TURN_S * slow * move.turns
-        moves = [
-            Move(
-                0,
-                length_s,
-                name,
-                CircleWay(flipped_axis(axis, self._flip(name)), RADIUS_M[move.size], move.turns),
-                hands[name].site,
+        phase, turns = self._clock(move)
+        ratio = _RATIOS.get(move.ellipse, 0.0)
+        if not ratio:
+            self.told("ellipse", "an ellipse that lies aslant is a circle")
+        length_s = TURN_S * slow * turns
+        moves = []
+        for name in sides:
+            half = 180 if name == "w" and self._alternates else 0
+            way = CircleWay(
+                flipped_axis(axis, self._flip(name)),
+                RADIUS_M[move.size],
+                turns,
+                (phase + half) % 360,
+                ratio or 1.0,
             )
-            for name in sides
-        ]
-        stays: dict[str, Vector] = dict.fromkeys(sides, (0, 0, 0))
-        return Phrase(length_s, moves=moves), _moved(hands, stays)
+            moves.append(Move(0, length_s, name, way, hands[name].site))
+        return Phrase(length_s, moves=moves), hands
+
+    def _clock(self, move: Circle) -> tuple[int, float]:
+        """Return where a circle starts, in degrees from its top, and how many turns it makes.
+
+        A circle about an axis that points inward is drawn, and so read, as a clock that runs
+        backward; all others as one that runs forward.
+        """
+        sense = -1 if "i" in move.axis.first else 1
+        start = sense * _HOURS.get(move.start or "u", 0)
+        if move.end is None:
+            return start % 360, float(move.turns)
+        part = (sense * _HOURS.get(move.end, 0) - start) % 360
+        return start % 360, move.turns - 1 + (part or 360) / 360
 
     def _flip(self, name: str) -> Vector:
         return flip_of(self.symmetry) if name == "w" else NO_FLIP
@@ -224,9 +250,8 @@ class Mover:
         count = TIMES[move.kind]
         if move.again:
             self.told("repeated-again", "a repetition that is repeated is done once")
-        if move.shift:
-            self.told("base-shift", "a repetition that goes on elsewhere stays where it is")
-        if isinstance(move.move, Circle):
+        onward = times(direction(move.shift), SHIFT_M) if move.shift else ZERO
+        if isinstance(move.move, Circle) and move.move.end is None:
             turns = move.move.turns * max(count, 2 if move.kind == "reverse" else 1)
             return self.perform(replace(move.move, turns=turns), hands, sides, slow)
         start = hands
@@ -248,6 +273,9 @@ class Mover:
                 for name in sides
             ]
             parts.append(Phrase(moves=ways))
+            if move.shift:
+                ways_on = {name: flipped(onward, self._flip(name)) for name in sides}
+                start = _moved(start, ways_on)
             hands = start
             time_s += back_s
             if not last:
@@ -278,5 +306,6 @@ def _moved(hands: Hands, ways: dict[str, Vector]) -> Hands:
         if base_way is None:
             out[name] = replace(hand, place=hand.place.moved(way))
         elif not is_close(base_way, way) and base.place is not None:
-            out[name] = replace(hand, place=base.place.moved(way))
+            apart = replace(base.place.moved(way), origin=hand.place)
+            out[name] = replace(hand, place=apart)
     return out

@@ -25,15 +25,27 @@ class ArcWay:
 
 @dataclass(frozen=True, slots=True)
 class CircleWay:
-    """Turns about an axis, right-handed."""
+    """Turns about an axis, right-handed.
+
+    phase: where it starts, in degrees beyond the highest point. ratio: its height over its width.
+    """
 
     axis: Vector
     radius_m: float
     turns: float
-    start: Vector | None = None
+    phase: int = 0
+    ratio: float = 1.0
 
 
-Way: TypeAlias = StraightWay | ArcWay | CircleWay
+@dataclass(frozen=True, slots=True)
+class ZigzagWay:
+    """A way with corners, or with waves, to the side of a vector and to the other."""
+
+    side: Vector
+    is_wave: bool = False
+
+
+Way: TypeAlias = StraightWay | ArcWay | CircleWay | ZigzagWay
 
 
 @dataclass(frozen=True, slots=True)

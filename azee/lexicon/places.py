@@ -41,13 +41,15 @@ class Place:
     """A point: a site, the middle of two, or without any the middle of the shoulder line; moved.
 
     touches: whether the surfaces are meant to meet there. gap: else how far they are apart, along
-    the normal of the site.
+    the normal of the site. origin, way: where a hand came from that moved there, and how far.
     """
 
     sites: tuple[Site, ...] = ()
     offset: Vector = ZERO
     touches: bool = False
     gap: float = 0.0
+    origin: Place | None = None
+    way: Vector = ZERO
 
     @property
     def is_space(self) -> bool:
@@ -61,7 +63,17 @@ class Place:
 
     def moved(self, way: Vector) -> Place:
         """Return the place that lies a vector further; nothing touches there."""
-        return replace(self, offset=plus(self.offset, way), touches=False, gap=0.0)
+        offset = plus(self.offset, way)
+        return Place(self.sites, offset, origin=self, way=way)
+
+    def way_from(self, start: Place) -> Vector | None:
+        """Return how far a hand moved from another place; None if it did not come from there."""
+        total, place = ZERO, self
+        while place != start:
+            if place.origin is None:
+                return None
+            total, place = plus(total, place.way), place.origin
+        return total if place is not self else None
 
     def mirrored(self) -> Place:
         """Return the place on the other side."""

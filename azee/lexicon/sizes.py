@@ -41,6 +41,11 @@ OFF_FACE_M = {"close": 0.16 * ARM_M, "armextended": 0.62 * ARM_M}
 NEAR_M = 0.04
 """How far from each other hands are that are close."""
 
+ZIGZAG_M = 0.03
+"""How far to either side a zigzag goes."""
+SHIFT_M = 0.12 * ARM_M
+"""How far on a repetition goes that goes on elsewhere."""
+
 STEP_S = 0.27
 """How long a movement takes."""
 TURN_S = 1.5 * STEP_S

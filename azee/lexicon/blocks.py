@@ -18,6 +18,8 @@ from azee.lexicon.places import Site, other
 from azee.lexicon.sizes import HELD_S
 from azee.lexicon.vectors import Vector
 
+_ON_THE_WAY_M = 0.01
+"""How far off its way a hand may be that turns or changes on it."""
 _SAME_S = 2e-3
 """Times that are nearer to each other are the same."""
 
@@ -243,4 +245,4 @@ def _way_text(move: Move, before: Moment, after: Moment, told: Told) -> str | No
         return None
     start = f"was('{_mark(before.time_s + HELD_S)}, {site.text})"
     end = f"vtranslate({start}, {vector_text(way, move.name)})"
-    return f"place {site.text} moving({path}, {start}, {end})"
+    return f"place {site.text} moving({path}, {start}, {end}) 'within {number(_ON_THE_WAY_M)}"

@@ -11,6 +11,8 @@ from azee.lexicon.vectors import Vector, is_close, length
 WITHIN_DEGREES = 20
 WITHIN_M = 0.02
 """How far off a hand may be that stays where it is."""
+NEAR_SKIN_M = 0.01
+"""How far a hand may be from a point near the skin, such as between two sites: it may lie in it."""
 _NAMED: dict[Vector, str] = {
     (0, 1, 0): "^up",
     (0, -1, 0): "^down",
@@ -44,6 +46,8 @@ def place_text(hand: Hand, name: str, *, stays: bool) -> list[str]:
         text += f" 'dist {number(place.gap)}"
     elif place.touches and len(place.sites) == 1 and is_close(place.offset, (0, 0, 0), _LEAST_M):
         text += " 'contact"
+    elif place.touches:
+        text += f" 'within {number(NEAR_SKIN_M)}"
     elif place.is_space and stays:
         text += f" 'within {number(WITHIN_M)}"
     return [text]

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from azee.lang.library import CORE, Librarian, define, definitions, shipped_library
+from azee.lang.library import CORE, Librarian, define, shipped_library
+from azee.lang.library_folder import definitions
 from azee.lang.machine import DEFAULT_LIMITS, Machine
 from azee.lang.program import Program
 from azee.lang.resolve import Resolving
@@ -51,7 +52,7 @@ def assemble(
         scope.siblings = beside.siblings(parsed.file, path)
         duplicates = define(namespace, definitions(parsed.file), scope, resolving)
         found += (*parsed.diagnostics, *problems, *duplicates)
-        from_files.rules |= namespace.rules
+        from_files.rules.update(namespace.rules)
         if any(isinstance(item, Use) for item in parsed.file.items):
             files_use = True
             libraries += scope.libraries

@@ -9,7 +9,13 @@ from evaluations import constraints, group, problems, program, times, value
 
 from azee.lang.library import shipped_library
 from azee.lang.rule import STATUSES, Rule
-from azee.lang.values import ConstraintsValue, ListValue, ScoreValue
+from azee.lang.values import (
+    ConstraintsValue,
+    ListValue,
+    PointValue,
+    ScoreValue,
+    VectorValue,
+)
 from azee.score.score import Group, Key, leaves
 from azee_grammar.library import shipped_names
 from azee_solver.constraint import LookAt, Morph, Place, Rotate
@@ -28,6 +34,7 @@ SIGNS = (
     *("country", "Iraq", "cat", "cute", "hello", "Wednesday"),
 )
 POSTURES = {"shape": ":#fist", "more": ":#fist"}
+DIRECTIONS = {"fingers": "^up", "palm": "^fwd"}
 OPERATORS = {"tens": ".nb-5", "units": ".nb-2"}
 
 
@@ -38,8 +45,10 @@ def _application(rule: Rule) -> str:
 
 
 def _argument(rule: Rule, name: str) -> str:
-    if name in ("pt", "loc"):
+    if name in ("pt", "loc", "point"):
         return f"'{name} = ^Rssp"
+    if rule.name == "hand-faces":
+        return f"'{name} = {DIRECTIONS[name]}"
     given = POSTURES | OPERATORS if rule.name in ("number-sign", "tens-units") else {}
     return f"'{name} = {given.get(name, '(blank 1)')}"
 
@@ -60,7 +69,12 @@ def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     assert rule.entry("status") in STATUSES
     text = _application(rule)
     found = value(text)
-    assert isinstance(found, ScoreValue | ConstraintsValue | ListValue)
+    if rule.name in ("in-space", "from"):
+        assert isinstance(found, PointValue)
+    elif rule.name in ("way", "axis"):
+        assert isinstance(found, VectorValue)
+    else:
+        assert isinstance(found, ScoreValue | ConstraintsValue | ListValue)
     if isinstance(found, ScoreValue):
         assert problems(text) == []
         assert program(text).check(Side.LEFT) == ()

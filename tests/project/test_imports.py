@@ -23,7 +23,7 @@ OURS = {"azee", "azee_grammar", "azee_rig", "azee_solver"}
 DECLARATIONS = {"azee_solver.geometry", "azee_solver.constraint", "azee_solver.notation"}
 
 MAY_IMPORT: dict[str, set[str]] = {
-    "azee_grammar": {"lark"},
+    "azee_grammar": {"lark", "platformdirs"},
     "azee_rig": {"numpy"},
     "azee_rig.machine_code": {"numpy", "llvmlite"},
     "azee_rig.pointers": {"numba", "llvmlite"},

@@ -102,8 +102,8 @@ def measure(name: str, text: bytes, rig: Rig, figures: Figures, dominant: Hand =
         if constraint.outcome is Outcome.MISSED:
             figures.reasons[f"{constraint.kind}: {_kind(constraint.reason)}"] += 1
             figures.add("missed", 1, name)
-    for sample in report.clip_penetration:
-        figures.add("overlap, m", sample.depth_m, name)
+    unmeant = [found.depth_m for found in report.clip_penetration if not found.intended]
+    figures.add("overlap, m", max(unmeant, default=0.0), name)
     figures.add("trunk, degrees", _trunk(done), name)
     reader = Reader(text)
     if not reader.is_simple:

@@ -127,7 +127,6 @@ class Reader:
             ]
         )
         self._codes: dict[str, dict[str, tuple[str, str | None]]] = {"s": {}, "w": {}}
-        self._split: set[str] = set()
 
     @property
     def _named(self) -> tuple[str, ...]:
@@ -165,29 +164,36 @@ class Reader:
         return self._oriented()
 
     def _take(self, element: ET.Element) -> None:
+        """Note directions; those for both hands are mirrored for the weak one, letter by letter."""
         if element.tag == "handconfig":
             for name in self._named:
-                self._codes[name].update(_directions(element))
-                if _turns(element):
-                    self._split.discard(name)
+                mirrored = self._both and name == "w"
+                for key, codes in _directions(element):
+                    first, second = (self._mirrored(c) if mirrored else c for c in codes)
+                    assert first is not None
+                    self._codes[name][key] = first, second
         elif element.tag == "split_handconfig":
             for name, config in zip("sw", element, strict=False):
                 self._codes[name].update(_directions(config))
-                if _turns(config):
-                    self._split.add(name)
+
+    def _mirrored(self, code: str | None) -> str | None:
+        if code is None:
+            return None
+        pairs = zip(("lr", "ud", "oi"), self._flip, strict=True)
+        table = dict[str, str]()
+        for pair, flip in pairs:
+            if flip < 0:
+                table |= {pair[0]: pair[1], pair[1]: pair[0]}
+        return "".join(table.get(c, c) for c in code)
 
     def _oriented(self) -> Posture:
         found = Posture()
         for name, codes in self._codes.items():
             hand = Hand()
             if "extfidir" in codes:
-                fingers = direction(*codes["extfidir"])
-                flip = np.ones(3) if name == "s" or name in self._split else self._flip
-                if not self._both and name == "w":
-                    flip = np.ones(3)
-                hand.fingers = fingers * flip
+                hand.fingers = direction(*codes["extfidir"])
                 if "palmor" in codes:
-                    hand.palm = palm(fingers, *codes["palmor"]) * flip
+                    hand.palm = palm(hand.fingers, *codes["palmor"])
             if codes:
                 found.hands[name] = hand
         return found

@@ -105,13 +105,15 @@ def sheet(folder: str, names: Sequence[str], output: Path, sample: int, rig: str
 def _rule_of(folder: Path, name: str) -> str:
     """Return the name of a rule from its name or gloss. Raises: AZeeError: there is none."""
     from azee.lexicon.glosses import rule_of
+    from azee.lexicon.importing import plain_name
     from azee.lexicon.record import Record
     from azee_grammar.nearest import nearest
 
     record = Record.read(folder)
     found = rule_of(name.removeprefix(":"), record)
     if found is None:
-        close = [f"`:{other}`" for other in nearest(name, list(record.entries))]
+        likely = f"{record.language}-{plain_name(name)}"
+        close = [f"`:{other}`" for other in nearest(likely, list(record.entries))]
         hint = f"did you mean {' or '.join(close)}?" if close else "`azee lexicon list` has them"
         message = f"the lexicon `{folder.name}` has no sign `{name}`"
         raise AZeeError(Diagnostic("unknown-rule", message, None, help=hint))

@@ -18,39 +18,36 @@ NO_FLIP: Vector = (1, 1, 1)
 class Hand:
     """A hand at a moment; None is what nothing has been said of.
 
-    fingers, palm: as notated. flip: factors of x, y and z from there to the world, which a weak
-    hand has that does what the strong hand does.
+    fingers, palm: as they are notated for this hand alone, so left and right are those of a
+    right-handed signer.
     """
 
     shape: HandShape | None = None
     fingers: Heading | None = None
     palm: Heading | None = None
-    flip: Vector = NO_FLIP
     site: Site | None = None
     place: Place | None = None
 
-    def with_config(self, config: HandConfig, flip: Vector) -> Hand:
-        """Return the hand with what a notation says of it."""
-        turned = config.fingers is not None or config.palm is not None
+    def with_config(self, config: HandConfig) -> Hand:
+        """Return the hand with what a notation says of it alone."""
         return replace(
             self,
             shape=config.shape or self.shape,
             fingers=config.fingers or self.fingers,
             palm=config.palm or self.palm,
-            flip=flip if turned else self.flip,
         )
 
     @property
     def pointing(self) -> Vector | None:
-        """Where the fingers point, in the world."""
-        return None if self.fingers is None else flipped(direction(self.fingers), self.flip)
+        """Where the fingers point."""
+        return None if self.fingers is None else direction(self.fingers)
 
     @property
     def facing(self) -> Vector | None:
-        """Where the palm looks, in the world."""
+        """Where the palm looks."""
         if self.fingers is None or self.palm is None:
             return None
-        return flipped(palm_normal(direction(self.fingers), self.palm), self.flip)
+        return palm_normal(direction(self.fingers), self.palm)
 
     def put(self, site: Site, place: Place) -> Hand:
         """Return the hand with one of its sites at a place."""
@@ -64,6 +61,40 @@ Hands: TypeAlias = Mapping[str, Hand]
 def changed(hands: Hands, change: Callable[[str, Hand], Hand], *which: str) -> Hands:
     """Return hands of which some are changed."""
     return {name: change(name, hand) if name in which else hand for name, hand in hands.items()}
+
+
+def config_for_weak(config: HandConfig, symmetry: Symmetry | None) -> HandConfig:
+    """Return what is said of two hands as the weak hand does it.
+
+    Mirrors swap letters: `l` and `r`, `u` and `d`, `o` and `i`. A palm is notated about the
+    fingers; swapping its letters too mirrors where it looks. A mirror between out and in does so
+    only for fingers that point out or in.
+    """
+    if symmetry is None:
+        return config
+    swapped: dict[str, str] = {}
+    for applies, pair in (
+        (symmetry.left_right, "lr"),
+        (symmetry.up_down, "ud"),
+        (symmetry.out_in, "oi"),
+    ):
+        if applies:
+            swapped |= {pair[0]: pair[1], pair[1]: pair[0]}
+    return replace(
+        config,
+        fingers=_swapped(config.fingers, swapped),
+        palm=_swapped(config.palm, swapped),
+    )
+
+
+def _swapped(heading: Heading | None, letters: Mapping[str, str]) -> Heading | None:
+    if heading is None:
+        return None
+
+    def swap(code: str | None) -> str | None:
+        return None if code is None else "".join(letters.get(c, c) for c in code)
+
+    return Heading(swap(heading.first) or heading.first, swap(heading.second))
 
 
 def flip_of(symmetry: Symmetry | None) -> Vector:

@@ -83,11 +83,16 @@ class TooLongError(Exception):
 
 @dataclass
 class Mover:
-    """Performs the movements of one part of a sign."""
+    """Performs the movements of one part of a sign.
+
+    What is notated for both hands, the weak hand does as the symmetry tells. What is notated for
+    each hand is as it stands, so movements of each are performed without symmetry.
+    """
 
     symmetry: Symmetry | None
     told: Told
-    steps: int = field(default=0)
+    steps: list[Movement] = field(default_factory=list)
+    """The movements performed so far."""
 
     def perform(
         self, move: Movement, hands: Hands, sides: Sides, slow: float = 1.0
@@ -96,8 +101,8 @@ class Mover:
 
         Raises: TooLongError.
         """
-        self.steps += 1
-        if self.steps > MOST_STEPS:
+        self.steps.append(move)
+        if len(self.steps) > MOST_STEPS:
             raise TooLongError
         match move:
             case Straight():
@@ -119,7 +124,8 @@ class Mover:
                 return self._together(pairs, hands, slow * slowness(move.manner))
             case ForEach():
                 pairs = [(move.strong, ("s",)), (move.weak, ("w",))]
-                return self._together(pairs, hands, slow * slowness(move.manner))
+                each = Mover(None, self.told, self.steps)
+                return each._together(pairs, hands, slow * slowness(move.manner))
             case InTurn():
                 if move.fused:
                     self.told("fused", "movements that run into each other are one after the other")

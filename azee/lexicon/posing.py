@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from azee.lexicon.hand_sites import site_of, usual_site
 from azee.lexicon.hand_text import Told
-from azee.lexicon.hands import NO_FLIP, Hand, Hands, changed, flip_of
+from azee.lexicon.hands import Hand, Hands, changed, config_for_weak
 from azee.lexicon.model import (
     Constellation,
     EachAt,
@@ -35,11 +35,13 @@ class Posing:
     def pose(self, posture: Posture, hands: Hands, sides: tuple[str, ...]) -> Hands:
         """Return hands as a posture says. sides: the hands that it is about."""
         for name in sides:
-            flip = flip_of(self.symmetry) if name == "w" else NO_FLIP
-            hands = {**hands, name: hands[name].with_config(posture.both, flip)}
-        for name, config in (("s", posture.strong), ("w", posture.weak)):
-            if config is not None:
-                hands = {**hands, name: hands[name].with_config(config, NO_FLIP)}
+            config = posture.both
+            if name == "w":
+                config = config_for_weak(config, self.symmetry)
+            hands = {**hands, name: hands[name].with_config(config)}
+        for name, own in (("s", posture.strong), ("w", posture.weak)):
+            if own is not None:
+                hands = {**hands, name: hands[name].with_config(own)}
         if posture.location is None:
             return hands
         return self._located(posture.location, hands, sides)

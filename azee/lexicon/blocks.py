@@ -16,10 +16,12 @@ from azee.lexicon.numbers import number
 from azee.lexicon.phrase import CircleWay, Moment, Move, Phrase, StraightWay
 from azee.lexicon.places import Site, other
 from azee.lexicon.sizes import HELD_S
-from azee.lexicon.vectors import Vector
+from azee.lexicon.vectors import Vector, dot
 
 _ON_THE_WAY_M = 0.01
 """How far off its way a hand may be that turns or changes on it."""
+_OPPOSITE = -0.99
+"""The cosine below which there is no shorter way round from a direction to another."""
 _SAME_S = 2e-3
 """Times that are nearer to each other are the same."""
 
@@ -109,25 +111,23 @@ def _runs(phrase: Phrase, name: str, told: Told) -> Iterator[_Run]:
     ]
     turned = [tuple(orientation_text(m.hand, name)) for m in moments]
     stays = not any(move.name == name for move in phrase.moves)
-    placed = [tuple(_placed(before, m, stays=stays)) for before, m in _with_before(moments)]
+    befores = (None, *moments[:-1])
+    placed = [
+        tuple(_placed(before, moment, site, stays=stays))
+        for before, moment, site in zip(befores, moments, _sites(moments), strict=True)
+    ]
     moves = [move for move in phrase.moves if move.name == name and not _is_carried(move, phrase)]
     yield from _aspect(moments, shapes, [], phrase.duration_s)
     yield from _aspect(moments, turned, [], phrase.duration_s)
     yield from _aspect(moments, placed, moves, phrase.duration_s)
 
 
-def _with_before(moments: Sequence[Moment]) -> Iterator[tuple[Moment | None, Moment]]:
-    """Yield moments, each with the one before it."""
-    yield from zip((None, *moments[:-1]), moments, strict=True)
-
-
-def _placed(before: Moment | None, moment: Moment, *, stays: bool) -> list[str]:
+def _placed(before: Moment | None, moment: Moment, site: Site | None, *, stays: bool) -> list[str]:
     """Return the constraint on where a hand is: at a place, or so far from where it was."""
     way = _way(before, moment)
-    if before is None or way is None:
+    place = moment.hand.place
+    if before is None or way is None or place is None or site is None:
         return place_text(moment.hand, moment.name, stays=stays)
-    place, site = moment.hand.place, _moving_site(before, moment)
-    assert place is not None
     if place.is_space and site == moment.hand.site:
         return place_text(moment.hand, moment.name, stays=stays)
     vector = vector_text(way, moment.name)
@@ -141,13 +141,26 @@ def _way(before: Moment | None, moment: Moment) -> Vector | None:
     return moment.hand.place.way_from(before.hand.place)
 
 
-def _moving_site(before: Moment, moment: Moment) -> Site:
-    """Return what moves: the site that is placed, or the palm if the hand turns or changes."""
-    hand, old = moment.hand, before.hand
-    turns = (old.pointing, old.facing, old.shape) != (hand.pointing, hand.facing, hand.shape)
-    if turns or hand.site is None or hand.site != old.site:
-        return Site("PA", moment.name)
-    return hand.site
+def _sites(moments: Sequence[Moment]) -> list[Site | None]:
+    """Return which site of a hand is placed at each moment.
+
+    A hand that moves and turns or changes on the way is led by its palm, from then on until it is
+    at a place again.
+    """
+    sites: list[Site | None] = []
+    for i, moment in enumerate(moments):
+        site = moment.hand.site
+        if i and _way(moments[i - 1], moment) is not None:
+            old, hand = moments[i - 1].hand, moment.hand
+            turns = (old.pointing, old.facing, old.shape) != (
+                hand.pointing,
+                hand.facing,
+                hand.shape,
+            )
+            if turns or sites[-1] != site:
+                site = Site("PA", moment.name)
+        sites.append(site)
+    return sites
 
 
 def _moments(phrase: Phrase, name: str) -> list[Moment]:
@@ -212,7 +225,10 @@ def _ends(move: Move, phrase: Phrase) -> tuple[Moment | None, Moment | None]:
 
 
 def _ways(phrase: Phrase, name: str, told: Told) -> Iterator[tuple[Move, str]]:
-    """Yield the ways from one moment at which a hand is placed to the next."""
+    """Yield the constraints that keep a hand on its ways, from one moment to the next."""
+    moments = _moments(phrase, name)
+    times = (round(moment.time_s, 3) for moment in moments)
+    sites = dict(zip(times, _sites(moments), strict=True))
     for move in phrase.moves:
         if move.name != name or _is_carried(move, phrase):
             continue
@@ -223,26 +239,53 @@ def _ways(phrase: Phrase, name: str, told: Told) -> Iterator[tuple[Move, str]]:
             continue
         if before.hand.place is None or after.hand.place is None or after.hand.site is None:
             continue
-        text = _way_text(move, before, after, told)
-        if text is not None:
+        ends = sites[round(before.time_s, 3)], sites[round(after.time_s, 3)]
+        for text in _way_texts(move, before, after, ends, told):
             yield move, text
 
 
-def _way_text(move: Move, before: Moment, after: Moment, told: Told) -> str | None:
-    """Return the constraint that keeps a hand on its way; None where nothing needs to."""
+def _way_texts(
+    move: Move,
+    before: Moment,
+    after: Moment,
+    sites: tuple[Site | None, Site | None],
+    told: Told,
+) -> list[str]:
+    """Return the constraints that keep a hand on its way; none where nothing needs to.
+
+    sites: those that are placed at the two moments.
+    """
     path = way_text(move.way, move.name)
     way = _way(before, after)
     if before.hand.place == after.hand.place and not isinstance(move.way, CircleWay):
-        return None
-    site = after.hand.site if way is None else _moving_site(before, after)
-    assert site is not None
-    if site in (before.hand.site, after.hand.site) and before.hand.site == after.hand.site:
-        return f"transpath {site.text} {path}"
+        return []
+    first, site = sites
+    if first is None or site is None:
+        return []
+    if first == site:
+        return [f"transpath {site.text} {path}"]
     if isinstance(move.way, StraightWay):
-        return None
+        return []
     if way is None:
         told("site-changes", "a curve on which the part of the hand changes is left out")
-        return None
+        return []
+    if before.hand.shape != after.hand.shape:
+        told("shape-changes", "a curve on which the hand changes its shape is left out")
+        return []
     start = f"was('{_mark(before.time_s + HELD_S)}, {site.text})"
     end = f"vtranslate({start}, {vector_text(way, move.name)})"
-    return f"place {site.text} moving({path}, {start}, {end}) 'within {number(_ON_THE_WAY_M)}"
+    moving = f"place {site.text} moving({path}, {start}, {end}) 'within {number(_ON_THE_WAY_M)}"
+    return [moving, *_turning(before, after)]
+
+
+def _turning(before: Moment, after: Moment) -> list[str]:
+    """Return the constraints on a hand that turns on its way."""
+    axes = {
+        "dir": (before.hand.pointing, after.hand.pointing),
+        "nrm": (before.hand.facing, after.hand.facing),
+    }
+    return [
+        f"turning '{axis} !palm({after.name})"
+        for axis, (start, end) in axes.items()
+        if start is not None and end is not None and dot(start, end) > _OPPOSITE
+    ]

@@ -144,31 +144,73 @@ def _finger_by_finger(shape: HandShape, hand: str, told: Told) -> list[str]:
     for digit, bend in shape.bends:
         if digit in bends:
             bends[digit] = bend_of(bend)
+    touching = _touching(shape, told)
+    if touching is not None:
+        bends[touching] = _PINCHED["pinch12"]
+        return _touching_hand(shape, hand, bends, touching, spread)
     arguments = [] if hand == "s" else [f"'side = {hand}"]
     arguments += [f"'{_NAMES[d]} = {_bend(bend)}" for d, bend in bends.items() if bend != _CLOSED]
     if spread:
         arguments.append(f"'spread = {number(spread)}")
-    thumb, touch = _ring_thumb(shape, hand, bends) if _is_ring(form.base) else (_thumb(form), [])
+    arguments.append(f"'thumb = {_any_thumb(shape, bends)}")
+    crossed = [f"morph 'fingers_crossed {hand} 1"] if _is_crossed(shape) else []
+    return [f":#hand-of({', '.join(arguments)})", *crossed]
+
+
+def _any_thumb(shape: HandShape, bends: Mapping[str, tuple[float, float]]) -> str:
     if _is_between_thumbs(shape):
-        thumb, touch = _thumb_between(shape), []
-    arguments.append(f"'thumb = {thumb}")
-    return [f":#hand-of({', '.join(arguments)})", *touch, *_crossing(shape, hand, told)]
+        return _thumb_between(shape)
+    base = shape.form.base
+    if not _is_ring(base):
+        return _thumb(shape.form)
+    pinched = base in _PINCHED and bends["2"] == _PINCHED[base]
+    return ".thumb-pinch" if pinched else ".thumb-opposed"
 
 
-def _ring_thumb(
-    shape: HandShape, hand: str, bends: Mapping[str, tuple[float, float]]
-) -> tuple[str, list[str]]:
-    """Return the thumb of a pinch or a cee, and what it touches if that is not the index."""
-    digit = next((d for d in shape.fingers or "2" if d != "1"), "2")
-    is_open = shape.form.base.startswith("cee") or (
-        shape.second is not None and shape.form.base != shape.second.base
-    )
-    if is_open:
-        return ".thumb-opposed", []
-    if digit == "2" and bends["2"] != BENDS["straight"]:
-        return ".thumb-pinch", []
-    tip = FINGER[digit]
-    return ".thumb-opposed", [f"place @T_TIP({hand}) @{tip}_TIP({hand}) 'contact"]
+def _touching(shape: HandShape, told: Told) -> str | None:
+    """Return the finger that the thumb touches, where that is no pinch of the index."""
+    crossing = shape.crossing
+    if crossing is not None:
+        pair = {crossing.digit, crossing.other}
+        if "1" in pair:
+            return max(pair)
+        if not _is_crossed(shape):
+            told("crossing", "two fingers that touch are not written")
+        return None
+    if (
+        shape.form.base not in _PINCHED
+        or _is_between_thumbs(shape)
+        or "2" in (shape.fingers or "2")
+    ):
+        return None
+    return next((d for d in shape.fingers if d in _NAMES), None)
+
+
+def _is_crossed(shape: HandShape) -> bool:
+    crossing = shape.crossing
+    return crossing is not None and {crossing.digit, crossing.other} == {"2", "3"}
+
+
+def _touching_hand(
+    shape: HandShape,
+    hand: str,
+    bends: Mapping[str, tuple[float, float]],
+    touching: str,
+    spread: float,
+) -> list[str]:
+    """Return a hand whose thumb touches a finger, which yields so far that they meet."""
+    items = []
+    for digit, bend in bends.items():
+        soft = " 'soft" if digit == touching else ""
+        for word, weight in zip(("bend", "hook"), bend, strict=True):
+            items.append(f"'{_NAMES[digit]}_{word} {hand} {number(weight)}{soft}")
+    items.append(f"'fingers_spread {hand} {number(spread)}")
+    part = shape.crossing.part if shape.crossing else "tip"
+    site = {"nail": "NA({0})", "midjoint": "KN({0}, 2)", "base": "KN({0}, 1)"}.get(part, "TIP({0})")
+    return [
+        f"morph {' '.join(items)}",
+        f"place @T_TIP({hand}) @{FINGER[touching]}_{site.format(hand)} 'contact",
+    ]
 
 
 def _bends(form: Form, fingers: str) -> dict[str, tuple[float, float]]:
@@ -210,22 +252,6 @@ def _spread(form: Form) -> float:
 
 def _bend(bend: tuple[float, float]) -> str:
     return _BEND_RULES.get(bend) or f"list({number(bend[0])}, {number(bend[1])})"
-
-
-def _crossing(shape: HandShape, hand: str, told: Told) -> list[str]:
-    crossing = shape.crossing
-    if crossing is None:
-        return []
-    if {crossing.digit, crossing.other} == {"2", "3"}:
-        return [f"morph 'fingers_crossed {hand} 1"]
-    if "1" not in (crossing.digit, crossing.other):
-        told("crossing", "two fingers that touch are not written")
-        return []
-    digit = crossing.other if crossing.digit == "1" else crossing.digit
-    site = {"nail": "NA({0})", "midjoint": "KN({0}, 2)", "base": "KN({0}, 1)"}.get(
-        crossing.part, "TIP({0})"
-    )
-    return [f"place @T_TIP({hand}) @{FINGER[digit]}_{site.format(hand)} 'contact"]
 
 
 def _tell_losses(shape: HandShape, told: Told) -> None:

@@ -127,9 +127,9 @@ class Posing:
         on_weak = self._sites(where.weak, "w", weak)
         on_strong = self._sites(where.strong, "s", strong)
         if not stays:
-            weak = weak.put(on_weak[0], replace(middle, touches=False))
-            if middle.touches:
-                weak = weak.put(on_weak[0], middle)
+            weak = weak.put(on_weak[0], middle)
+        elif self.symmetry is not None and weak.place is not None:
+            weak = weak.put(on_weak[0], weak.place)  # they meet where they met before
         touches = where.contact != "close"
         place = Place(on_weak, touches=touches, gap=0.0 if touches else NEAR_M)
         return {"s": strong.put(on_strong[0], place), "w": weak}

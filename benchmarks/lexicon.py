@@ -80,8 +80,16 @@ def signs_of(archive: Path) -> dict[str, bytes]:
         }
 
 
-def measure(name: str, text: bytes, rig: Rig, figures: Figures, dominant: Hand = "right") -> None:
-    """Compile one sign and compare it with its notation."""
+def measure(
+    name: str,
+    text: bytes,
+    rig: Rig,
+    figures: Figures,
+    dominant: Hand = "right",
+    *,
+    overlap: bool = True,
+) -> None:
+    """Compile one sign and compare it with its notation. overlap: also measure that of its skin."""
     found = next(read_bytes(text, f"{name}.sigml"))
     if found.sign is None:
         figures.failed.append(name)
@@ -102,8 +110,9 @@ def measure(name: str, text: bytes, rig: Rig, figures: Figures, dominant: Hand =
         if constraint.outcome is Outcome.MISSED:
             figures.reasons[f"{constraint.kind}: {_kind(constraint.reason)}"] += 1
             figures.add("missed", 1, name)
-    unmeant = [found.depth_m for found in report.clip_penetration if not found.intended]
-    figures.add("overlap, m", max(unmeant, default=0.0), name)
+    if overlap:
+        unmeant = [found.depth_m for found in report.clip_penetration if not found.intended]
+        figures.add("overlap, m", max(unmeant, default=0.0), name)
     figures.add("trunk, degrees", _trunk(done), name)
     reader = Reader(text)
     if not reader.is_simple:
@@ -205,6 +214,7 @@ def main(arguments: Sequence[str]) -> None:
     parser.add_argument("--names", nargs="*", default=[], help="these signs")
     parser.add_argument("--rig", default="signer")
     parser.add_argument("--dominant", default="right", choices=["right", "left"])
+    parser.add_argument("--no-overlap", action="store_true", help="skip what takes longest")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args(list(arguments))
     texts = signs_of(options.archive)
@@ -212,7 +222,7 @@ def main(arguments: Sequence[str]) -> None:
     rig = load_rig(options.rig)
     figures = Figures()
     for name in names:
-        measure(name, texts[name], rig, figures, options.dominant)
+        measure(name, texts[name], rig, figures, options.dominant, overlap=not options.no_overlap)
     for row in rows(figures):
         print(row)
     if options.json:

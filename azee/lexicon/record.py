@@ -53,7 +53,7 @@ class Record:
             entries = {str(name): _entry(found) for name, found in document["rules"].items()}
             return cls(str(document["language"]), str(document["source"]), entries)
         except (OSError, ValueError, KeyError, TypeError, AttributeError):
-            message = f"`{path}` is no record of an imported lexicon"
+            message = f"`{path.name}` is no record of an imported lexicon"
             hint = "delete it: importing writes it again"
             raise AZeeError(Diagnostic("bad-record", message, None, help=hint)) from None
 

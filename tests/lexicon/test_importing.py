@@ -6,7 +6,9 @@ import json
 import zipfile
 from pathlib import Path
 
+import jsonschema
 import pytest
+from formats import schema
 from pairs import PAIRS, symbols
 
 from azee.cli.main import run
@@ -136,6 +138,7 @@ def test_the_summary_names_every_loss(tmp_path: Path, capsys: pytest.CaptureFixt
     paths = (str(SIGNS), str(tmp_path / "bad.sigml"), "-o", str(tmp_path / "ngt"))
     text = _output(capsys, "lexicon", "import", *paths, "--format", "json", code=1)
     document = json.loads(text)
+    jsonschema.validate(document, schema("lexicon-import"))
     assert len(document["written"]) == 21
     assert document["failed"] == ["bad.sigml"]
     assert [d["code"] for d in document["diagnostics"]] == ["bad-sigml"]

@@ -15,7 +15,7 @@ from azee.lang.rule import Rule
 from azee.lang.scope import Namespace, Scope
 from azee_grammar.diagnostic import AZeeError, Diagnostic, Related
 from azee_grammar.files import TEXT_SUFFIXES, is_file, is_folder, read_source
-from azee_grammar.installed import installed_library
+from azee_grammar.installed import installed_library, installed_names
 from azee_grammar.library import shipped, shipped_names
 from azee_grammar.nearest import nearest
 from azee_grammar.source import Source, Span
@@ -226,7 +226,8 @@ class Librarian:
 
     def _missing(self, use: Use, folder: Path | None) -> Diagnostic:
         name = use.library.name
-        found = [f"`'{candidate}`" for candidate in nearest(name, shipped_names())]
+        known = (*shipped_names(), *installed_names())
+        found = [f"`'{candidate}`" for candidate in nearest(name, known)]
         if not _is_plain(name):
             hint = "a library has a plain name; `--library DIR` adds folders to look in"
         elif outside := self._outside(name, folder):
@@ -235,7 +236,7 @@ class Librarian:
             hint = f"did you mean {' or '.join(found)}?"
         else:
             hint = "it is looked for beside this file, in each `--library DIR`, and among " + (
-                ", ".join(f"`'{known}`" for known in shipped_names())
+                ", ".join(f"`'{library}`" for library in known)
             )
         message = f"there is no library `'{name}`"
         return Diagnostic("library-not-found", message, use.library.span, help=hint)

@@ -9,7 +9,6 @@ import tempfile
 from functools import cache
 from pathlib import Path
 
-from azee.lexicon.importing import import_signs
 from azee_grammar.cache import cache_folder
 
 _FOLDER = "lexicons"
@@ -29,6 +28,8 @@ def rules_of(archive: Path, language: str, source: str) -> Path:
         kept = home / _FOLDER / name / language
         if kept.is_dir():
             return kept
+    from azee.lexicon.importing import import_signs
+
     print(f"Writing the rules of the lexicon {language}, once …", file=sys.stderr)
     part = _temporary(home)
     import_signs([archive], part / language, language, source)

@@ -156,7 +156,9 @@ class Librarian:
         if name in shipped_names():
             return shipped_library(name)
         installed = installed_library(name)
-        return None if installed is None else self._read(name, installed, check=False)
+        return (
+            None if installed is None else self._read(name, installed, check=False, installed=True)
+        )
 
     def _candidates(self, name: str, folder: Path | None) -> Iterator[Path]:
         """Yield the folders and texts of a plain name, the nearest first."""
@@ -170,8 +172,14 @@ class Librarian:
         """Return the first link of a name that is not followed."""
         return next(self._candidates(name, folder), None)
 
-    def _read(self, name: str, path: Path, *, check: bool = True) -> Library:
-        """Read a library, once. check: whether mistakes in rules that nobody names count."""
+    def _read(
+        self, name: str, path: Path, *, check: bool = True, installed: bool = False
+    ) -> Library:
+        """Read a library, once.
+
+        Args: check: whether mistakes in rules that nobody names count. installed: whether no
+            editor has newer texts of it than the disk.
+        """
         if path in self._libraries:
             return self._libraries[path]
         library = Library(Namespace(name))
@@ -187,7 +195,7 @@ class Librarian:
                 return library
             library.diagnostics += listing.diagnostics
             files = listing.files
-            if self._read_source is read_source:
+            if self._read_source is read_source or installed:
                 files = self._indexed(library, path, check=check)
         for file in files:
             try:
@@ -205,7 +213,7 @@ class Librarian:
 
         def load(file: str, name: str) -> None:
             try:
-                self._add(library, self._read_source(folder / file), folder)
+                self._add(library, read_source(folder / file), folder)
             except AZeeError as problem:
                 library.diagnostics += problem.diagnostics
             if name not in rules.read:

@@ -279,6 +279,8 @@ def load(
     duplicates = define(namespace, definitions(parsed.file), scope, resolving)
     found = (*parsed.diagnostics, *problems, *duplicates)
     in_libraries = tuple(d for library in librarian.libraries for d in library.diagnostics)
+    if not shared:
+        shelf.keep()
     return Program(
         source,
         parsed.file,

@@ -25,6 +25,7 @@ MODULES = {
     "continuity": "benchmarks.continuity",
     "penetration": "benchmarks.penetration",
     "likeness": "benchmarks.likeness",
+    "lexicon": "benchmarks.lexicon",
     "solver": "benchmarks.solver_bench",
 }
 

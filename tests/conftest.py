@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,6 +26,13 @@ settings.register_profile(
 settings.register_profile("search", settings.get_profile("repeatable"), derandomize=False)
 settings.register_profile("long", settings.get_profile("search"), max_examples=5000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Keep what programs keep in a folder of these tests alone."""
+    folder = tempfile.mkdtemp(prefix="azee-tests-")
+    os.environ["AZEE_CACHE"] = folder
+    config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -24,6 +24,8 @@ from azee.cli.corpus import corpus
 from azee.cli.elan import elan
 from azee.cli.find import find
 from azee.cli.fmt import fmt
+from azee.cli.gloss import gloss
+from azee.cli.lexicon import lexicon
 from azee.cli.lsp import lsp
 from azee.cli.manifest import manifest
 from azee.cli.render import render
@@ -53,6 +55,8 @@ azee.add_command(score)
 azee.add_command(render)
 azee.add_command(clip)
 azee.add_command(find)
+azee.add_command(lexicon)
+azee.add_command(gloss)
 azee.add_command(corpus)
 azee.add_command(elan)
 azee.add_command(lsp)

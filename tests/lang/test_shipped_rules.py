@@ -9,7 +9,13 @@ from evaluations import constraints, group, problems, program, times, value
 
 from azee.lang.library import shipped_library
 from azee.lang.rule import STATUSES, Rule
-from azee.lang.values import ConstraintsValue, ListValue, ScoreValue
+from azee.lang.values import (
+    ConstraintsValue,
+    ListValue,
+    PointValue,
+    ScoreValue,
+    VectorValue,
+)
 from azee.score.score import Group, Key, leaves
 from azee_grammar.library import shipped_names
 from azee_solver.constraint import LookAt, Morph, Place, Rotate
@@ -37,6 +43,9 @@ ARGUMENTS = {
     "class": ".building-cl",
     "n": "3",
     "param$0": "s",
+    "fingers": "^up",
+    "palm": "^fwd",
+    "point": "^Rssp",
 }
 """What stands for an argument that must be given, by its name; a score for any other."""
 OF_MULTIPLES = {"elt": ".personne"}
@@ -69,7 +78,12 @@ def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     assert rule.entry("status") in STATUSES
     text = _application(rule)
     found = value(text)
-    assert isinstance(found, ScoreValue | ConstraintsValue | ListValue)
+    if rule.name in ("in-space", "from"):
+        assert isinstance(found, PointValue)
+    elif rule.name in ("way", "axis"):
+        assert isinstance(found, VectorValue)
+    else:
+        assert isinstance(found, ScoreValue | ConstraintsValue | ListValue)
     if isinstance(found, ScoreValue):
         assert problems(text) == []
         assert program(text).check(Side.LEFT) == ()

@@ -23,7 +23,7 @@ OURS = {"azee", "azee_grammar", "azee_rig", "azee_solver"}
 DECLARATIONS = {"azee_solver.geometry", "azee_solver.constraint", "azee_solver.notation"}
 
 MAY_IMPORT: dict[str, set[str]] = {
-    "azee_grammar": {"lark"},
+    "azee_grammar": {"lark", "platformdirs"},
     "azee_rig": {"numpy"},
     "azee_rig.machine_code": {"numpy", "llvmlite"},
     "azee_rig.pointers": {"numba", "llvmlite"},
@@ -106,6 +106,7 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee.lang", "azee.motion", "azee.quality", "azee.score", "azee.wording"),
         *("azee_grammar", "azee_rig", "azee_solver"),
     },
+    "azee.lexicon": {"azee.export.files", "azee_grammar", "lark", "lxml"},
     "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},
     "azee.notebook": {*OURS, "numpy", "PIL"},
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},

@@ -80,6 +80,7 @@ pictures: $(READY) readme-picture ## draw all pictures of the documents and of t
 	@$(RUN) docs/language/mouths.py
 	@$(RUN) docs/film_pictures.py
 	@$(RUN) docs/facial_rules.py
+	@$(RUN) docs/number_pictures.py
 	@$(RUN) docs/repl_pictures.py
 
 readme-picture: $(READY) ## draw the moving picture of README.md again

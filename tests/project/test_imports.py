@@ -20,7 +20,7 @@ MODULES = {
     for relative, path in SOURCES.items()
 }
 OURS = {"azee", "azee_grammar", "azee_rig", "azee_solver"}
-DECLARATIONS = {"azee_solver.geometry", "azee_solver.constraint", "azee_solver.notation"}
+DECLARATIONS = {f"azee_solver.{name}" for name in ("geometry", "constraint", "notation", "cycles")}
 
 MAY_IMPORT: dict[str, set[str]] = {
     "azee_grammar": {"lark", "platformdirs"},
@@ -33,6 +33,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee_solver.geometry": set(),
     "azee_solver.constraint": {"azee_solver.geometry"},
     "azee_solver.notation": {"azee_solver.constraint", "azee_solver.geometry"},
+    "azee_solver.cycles": {"azee_solver.constraint", "azee_solver.geometry"},
     "azee_solver": {"azee_rig", "numpy", "nlopt"},
     "azee_solver.kernels": {"azee_rig", "azee_solver.block", "numpy", "numba"},
     "azee_solver.posing": {"azee_rig", "azee_solver", "numba"},

@@ -70,9 +70,22 @@ class Hand:
 
 @dataclass
 class Posture:
-    """Both hands; only those that are spoken of."""
+    """Both hands, s and w; only those that are spoken of. sides: which of the body's they are."""
 
     hands: dict[str, Hand] = field(default_factory=dict)
+    sides: dict[str, str] = field(default_factory=lambda: {"s": "R", "w": "L"})
+
+    def mirrored(self) -> Posture:
+        """Return the posture of a left-handed signer."""
+
+        def seen(vector: Array | None) -> Array | None:
+            return None if vector is None else vector * MIRROR
+
+        hands = {
+            name: Hand(seen(h.fingers), seen(h.palm), seen(h.place), h.touched)
+            for name, h in self.hands.items()
+        }
+        return Posture(hands, {"s": "L", "w": "R"})
 
 
 def unit(vector: Array) -> Array:

@@ -215,14 +215,13 @@ class Reader:
         where, second = location.get("location"), location.get("second_location")
         contact = location.get("contact")
         own = location.find("location_hand")
-        if contact == "touch" or (where in FACE_SITES and contact is None):
+        on_skin = where in FACE_SITES and where != "neck" and contact is None
+        if contact == "touch" or on_skin:
             if where in FACE_SITES and not second and not location.get("second_side"):
                 for name in self._named:
                     found.hands.setdefault(name, Hand()).touched = FACE_SITES[where]
             return
         if where not in HEIGHT or (second is not None and second not in HEIGHT) or own is not None:
-            return
-        if where in FACE_SITES and contact is None:
             return
         heights = [HEIGHT[where]] + ([HEIGHT[second]] if second else [])
         sides = [location.get("side")]

@@ -120,8 +120,10 @@ def measure(
     whole = [row for row in report.blocks if "'HANDS'" in str(row["path"])] or report.blocks
     start_s = min(float(str(row["start_s"])) for row in whole) + INSIDE_S
     end_s = max(float(str(row["end_s"])) for row in whole) - INSIDE_S
-    _compare(done, reader.start(), start_s, "start", name, figures)
-    end = reader.end()
+    start, end = reader.start(), reader.end()
+    if dominant == "left":
+        start, end = start.mirrored(), end and end.mirrored()
+    _compare(done, start, start_s, "start", name, figures)
     if end is not None:
         _compare(done, end, end_s, "end", name, figures)
 
@@ -144,7 +146,7 @@ def _compare(
     frame = int(np.abs(clip.times - (time_s + done.report.lead_s)).argmin())
     frames = rig.chain.frames(clip.coordinates[frame])
     for hand, expected in said.hands.items():
-        side = "R" if hand == "s" else "L"
+        side = said.sides[hand]
         node = rig.bones[f"palm_{side}"].node
         turned = frames.rotations[node]
         for what, vector, column in (

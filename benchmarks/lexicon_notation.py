@@ -70,9 +70,22 @@ class Hand:
 
 @dataclass
 class Posture:
-    """Both hands; only those that are spoken of."""
+    """Both hands, s and w; only those that are spoken of. sides: which of the body's they are."""
 
     hands: dict[str, Hand] = field(default_factory=dict)
+    sides: dict[str, str] = field(default_factory=lambda: {"s": "R", "w": "L"})
+
+    def mirrored(self) -> Posture:
+        """Return the posture of a left-handed signer."""
+
+        def seen(vector: Array | None) -> Array | None:
+            return None if vector is None else vector * MIRROR
+
+        hands = {
+            name: Hand(seen(h.fingers), seen(h.palm), seen(h.place), h.touched)
+            for name, h in self.hands.items()
+        }
+        return Posture(hands, {"s": "L", "w": "R"})
 
 
 def unit(vector: Array) -> Array:
@@ -202,14 +215,13 @@ class Reader:
         where, second = location.get("location"), location.get("second_location")
         contact = location.get("contact")
         own = location.find("location_hand")
-        if contact == "touch" or (where in FACE_SITES and contact is None):
+        on_skin = where in FACE_SITES and where != "neck" and contact is None
+        if contact == "touch" or on_skin:
             if where in FACE_SITES and not second and not location.get("second_side"):
                 for name in self._named:
                     found.hands.setdefault(name, Hand()).touched = FACE_SITES[where]
             return
         if where not in HEIGHT or (second is not None and second not in HEIGHT) or own is not None:
-            return
-        if where in FACE_SITES and contact is None:
             return
         heights = [HEIGHT[where]] + ([HEIGHT[second]] if second else [])
         sides = [location.get("side")]

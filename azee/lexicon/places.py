@@ -57,6 +57,11 @@ class Place:
         return not self.sites
 
     @property
+    def is_at_trunk(self) -> bool:
+        """Whether it is at the trunk, whose surface is broad and round."""
+        return bool(self.sites) and all(s.name in TRUNK_SITES for s in self.sites)
+
+    @property
     def is_at_hand(self) -> bool:
         """Whether it is at a site of a hand, which moves by itself."""
         return any(site.name in HAND_SITES or site.phalanx is not None for site in self.sites)
@@ -81,6 +86,7 @@ class Place:
         return replace(self, sites=sites, offset=mirrored(self.offset))
 
 
+TRUNK_SITES = frozenset(("ST", "ABST", "AB"))
 HAND_SITES = words(
     "PA H_BACK H_EDGE WR WRi WRt viande I_TIP M_TIP R_TIP L_TIP T_TIP I_PAD M_PAD R_PAD L_PAD T_PAD"
     " I_NA M_NA R_NA L_NA T_NA F_ARM F_ARMi EL ELi ARM"
@@ -121,7 +127,6 @@ _TRUNK_SITES = {
     "belowstomach": "AB",
 }
 _UNDER_CHIN: Vector = (0, -0.02, -0.02)
-_ON_CHEST: Vector = (0, -0.06, 0)
 _BESIDE_M = 0.03
 """How far beside a part of the face a place beside it is."""
 
@@ -152,6 +157,9 @@ def _middle(first: Place, second: Place) -> Place:
         return first
     if first.sites == second.sites:
         return replace(first, offset=offset)
+    for one, other_one in ((first, second), (second, first)):
+        if set(one.sites) < set(other_one.sites):
+            return replace(one, offset=offset)
     return Place((*first.sites[:1], *second.sites[:1]), offset, touches)
 
 
@@ -173,12 +181,12 @@ def _space(at: str, side: str | None, contact: str | None) -> Place:
 
 def _skin(at: str, side: str | None, hand: str) -> Place:
     name = _TRUNK_SITES[at]
-    offset = ZERO
-    if at == "chest":
-        offset = _ON_CHEST
-    elif at == "head" and not _sign(side):
+    if at == "head" and not _sign(side):
         name = "FH"
-    return Place((_sited(name, side, hand),), offset, touches=True)
+    site = _sited(name, side, hand)
+    if at == "chest":  # lower than the sternum, at whose top the site is
+        return Place((site, _sited("ABST", side, hand)), touches=True)
+    return Place((site,), touches=True)
 
 
 def _face(at: str, side: str | None, contact: str | None, hand: str) -> Place:

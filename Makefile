@@ -47,6 +47,7 @@ bench-blender: $(READY) ## compare it with Blender and pinocchio too; installs t
 bench-tracker: $(READY) ## compare our films with people by a tracker, which it installs (1.2 GB)
 	@mkdir -p out
 	@$(RUN) -m benchmarks.tracker -o out/tracker.json
+	@$(RUN) -m benchmarks.tracker.faces
 
 SECONDS ?= 60
 fuzz: $(READY) ## search for texts that break the language, for SECONDS=60; on Linux

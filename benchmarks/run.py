@@ -17,6 +17,7 @@ MODULES = {
     "waits": "benchmarks.waits",
     "language": "benchmarks.language_growth",
     "signs": "benchmarks.signs",
+    "signs-db": "benchmarks.sign_database",
     "motion": "benchmarks.motion_length",
     "prompt": "benchmarks.prompt",
     "frames": "benchmarks.frames",

@@ -21,6 +21,7 @@ from azee.cli.clip import clip
 from azee.cli.compile import compile_
 from azee.cli.console import DONE, FAULT, INTERRUPTED, show
 from azee.cli.corpus import corpus
+from azee.cli.db import db
 from azee.cli.elan import elan
 from azee.cli.find import find
 from azee.cli.fmt import fmt
@@ -58,6 +59,7 @@ azee.add_command(find)
 azee.add_command(lexicon)
 azee.add_command(gloss)
 azee.add_command(corpus)
+azee.add_command(db)
 azee.add_command(elan)
 azee.add_command(lsp)
 azee.add_command(rules)

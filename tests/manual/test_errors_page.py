@@ -10,11 +10,13 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
 from diagnostic_codes import UnknownCodeError, codes, codes_in
 from pages import Block, blocks, page, pairs
+from sqlalchemy import update
 
 from azee.cli.main import run
 from azee.clip.archive import write_clip
@@ -22,6 +24,10 @@ from azee.clip.clip import Clip
 from azee.compilation import lacks
 from azee.lang.program import load
 from azee.lang.unshowable import beyond_frames
+from azee.signs.database import SignDatabase
+from azee.signs.sign import Identity, Motion, SignFacts, Timing
+from azee.signs.skeleton import StoredSkeleton
+from azee.signs.tables import MOTION
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.render import render
 from azee_grammar.source import Source
@@ -45,6 +51,24 @@ def _sign() -> bytes:
 
 
 COFFEE = {"gloss": "COFFEE", "file": "coffee.tsv", "digest": ""}
+
+
+def _signs() -> bytes:
+    """A database of two signs; the movement of the second is damaged."""
+    rig, clip = load_rig("signer"), _sign()
+    known = Timing.of(2.0, 61, 30.0)
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "signs.db"
+        database, _ = SignDatabase.create(str(path))
+        with database:
+            for name in ("TREE", "HOUSE"):
+                motion = Motion(clip, name.encode(), f"{name}.npz")
+                database.add(SignFacts(Identity(name), known), motion, StoredSkeleton.of(rig))
+            with database.store.writing() as connection:
+                connection.execute(update(MOTION).where(MOTION.c.sign == 2).values(clip=b"?"))
+        return path.read_bytes()
+
+
 FILES = {
     "north/tea.azee": b"def tea\n    :bien\n",
     "south/tea.azee": b"def tea\n    :mignon\n",
@@ -63,6 +87,7 @@ FILES = {
     ).encode(),
     "broken/lexicon.json": b"{}",
     "sign.npz": _sign(),
+    "signs.db": _signs(),
 }
 """What the examples find beside them."""
 

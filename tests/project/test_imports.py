@@ -43,6 +43,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.corpus": {"azee.lang", "azee.export.files", "azee.wording", "matplotlib", "pympi"},
     "azee.assist": {"azee_grammar", "azee.lang", "azee.score"} | DECLARATIONS,
     "azee.clip": {"azee_rig", "numpy"},
+    "azee.signs": {"azee.clip", "azee_rig", "sqlalchemy", "alembic"},
     "azee.motion.tasks": {"azee.clip", "azee.score", "azee_solver", "azee_rig", "numpy"},
     "azee.motion.curves": {
         *("azee.clip", "azee.score", "azee.motion.tasks"),
@@ -111,7 +112,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},
     "azee.notebook": {*OURS, "numpy", "PIL"},
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
-    "azee.cli": {*OURS, "click", "rich"},
+    "azee.cli": {*OURS, "click", "rich", "platformdirs", "sqlalchemy"},
     "azee.cli.study": {*OURS, "click", "uvicorn"},
     "azee": OURS,
 }

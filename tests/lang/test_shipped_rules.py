@@ -9,7 +9,7 @@ from evaluations import constraints, group, problems, program, times, value
 
 from azee.lang.library import shipped_library
 from azee.lang.rule import STATUSES, Rule
-from azee.lang.values import ConstraintsValue, ListValue, ScoreValue
+from azee.lang.values import ConstraintsValue, ListValue, PointValue, ScoreValue
 from azee.score.score import Group, Key, leaves
 from azee_grammar.library import shipped_names
 from azee_solver.constraint import LookAt, Morph, Place, Rotate
@@ -42,6 +42,11 @@ ARGUMENTS = {
 OF_MULTIPLES = {"elt": ".personne"}
 
 
+def _uses(rule: Rule) -> str:
+    """The line that brings a rule into scope, where the core and LSF are not all."""
+    return "" if rule.library in ("core", "lsf") else f"use '{rule.library}\n"
+
+
 def _application(rule: Rule) -> str:
     """The rule applied with an argument for everything that must be given."""
     arguments = [_argument(rule, name) for name, mandatory in rule.parameters if mandatory]
@@ -54,7 +59,7 @@ def _argument(rule: Rule, name: str) -> str:
 
 
 def test_the_shipped_texts_are_sound() -> None:
-    assert shipped_names() == ("core", "lsf")
+    assert shipped_names() == ("asl", "core", "lsf")
     for name in shipped_names():
         assert shipped_library(name).diagnostics == []
     for rule in RULES:
@@ -68,18 +73,18 @@ def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     assert rule.entry("source")
     assert rule.entry("status") in STATUSES
     text = _application(rule)
-    found = value(text)
-    assert isinstance(found, ScoreValue | ConstraintsValue | ListValue)
+    found = value(text, _uses(rule))
+    assert isinstance(found, ScoreValue | ConstraintsValue | ListValue | PointValue)
     if isinstance(found, ScoreValue):
-        assert problems(text) == []
-        assert program(text).check(Side.LEFT) == ()
+        assert problems(_uses(rule) + text) == []
+        assert program(_uses(rule) + text).check(Side.LEFT) == ()
 
 
 @pytest.mark.parametrize(
     "rule", [r for r in RULES if r.entry("example")], ids=lambda rule: rule.name
 )
 def test_the_example_of_a_rule_evaluates(rule: Rule) -> None:
-    assert problems(rule.entry("example") or "") == []
+    assert problems(_uses(rule) + (rule.entry("example") or "")) == []
 
 
 def test_every_rule_with_mandatory_arguments_has_an_example() -> None:

@@ -154,6 +154,15 @@ def _couple(hessian, coupled, component):
 
 
 @njit(**INNER)
+def _is_stuck(stuck, v):
+    """Whether a coordinate may move in no frame."""
+    for t in range(stuck.shape[0]):
+        if stuck[t, v] == 0:
+            return False
+    return True
+
+
+@njit(**INNER)
 def _step(
     first, component, members, hessian, gradient, bands, smooth, stuck, damping, room, spare, step
 ):  # fmt: skip
@@ -161,7 +170,7 @@ def _step(
     T, n, order = stuck.shape[0], stuck.shape[1], bands.shape[0] - 1
     m = 0
     for v in range(n):
-        if component[v] == first:
+        if component[v] == first and not _is_stuck(stuck, v):
             members[m] = v
             m += 1
     width = order * m + 1
@@ -266,6 +275,9 @@ def project(words):
             break
         steps += 1
         _couple(hessians[now], coupled, component)
+        for t in range(T):
+            for v in range(n):
+                step[t, v] = 0.0
         for c in range(n):
             if component[c] == c:
                 _step(

@@ -51,6 +51,11 @@ ARGUMENTS = {
 OF_MULTIPLES = {"elt": ".personne"}
 
 
+def _uses(rule: Rule) -> str:
+    """The line that brings a rule into scope, where the core and LSF are not all."""
+    return "" if rule.library in ("core", "lsf") else f"use '{rule.library}\n"
+
+
 def _application(rule: Rule) -> str:
     """The rule applied with an argument for everything that must be given."""
     arguments = [_argument(rule, name) for name, mandatory in rule.parameters if mandatory]
@@ -63,7 +68,7 @@ def _argument(rule: Rule, name: str) -> str:
 
 
 def test_the_shipped_texts_are_sound() -> None:
-    assert shipped_names() == ("core", "lsf")
+    assert shipped_names() == ("asl", "core", "lsf")
     for name in shipped_names():
         assert shipped_library(name).diagnostics == []
     for rule in RULES:
@@ -77,23 +82,23 @@ def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     assert rule.entry("source")
     assert rule.entry("status") in STATUSES
     text = _application(rule)
-    found = value(text)
+    found = value(text, _uses(rule))
     if rule.name in ("in-space", "from"):
         assert isinstance(found, PointValue)
     elif rule.name in ("way", "axis"):
         assert isinstance(found, VectorValue)
     else:
-        assert isinstance(found, ScoreValue | ConstraintsValue | ListValue)
+        assert isinstance(found, ScoreValue | ConstraintsValue | ListValue | PointValue)
     if isinstance(found, ScoreValue):
-        assert problems(text) == []
-        assert program(text).check(Side.LEFT) == ()
+        assert problems(_uses(rule) + text) == []
+        assert program(_uses(rule) + text).check(Side.LEFT) == ()
 
 
 @pytest.mark.parametrize(
     "rule", [r for r in RULES if r.entry("example")], ids=lambda rule: rule.name
 )
 def test_the_example_of_a_rule_evaluates(rule: Rule) -> None:
-    assert problems(rule.entry("example") or "") == []
+    assert problems(_uses(rule) + (rule.entry("example") or "")) == []
 
 
 def test_every_rule_with_mandatory_arguments_has_an_example() -> None:

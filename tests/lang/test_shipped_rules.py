@@ -9,7 +9,7 @@ from evaluations import constraints, group, problems, program, times, value
 
 from azee.lang.library import shipped_library
 from azee.lang.rule import STATUSES, Rule
-from azee.lang.values import ConstraintsValue, ListValue, PointValue, ScoreValue
+from azee.lang.values import BooleanValue, ConstraintsValue, ListValue, PointValue, ScoreValue, TextValue
 from azee.score.score import Group, Key, leaves
 from azee_grammar.library import shipped_names
 from azee_solver.constraint import LookAt, Morph, Place, Rotate
@@ -36,6 +36,12 @@ ARGUMENTS = {
     "face": ".frown",
     "class": ".building-cl",
     "n": "3",
+    "text": "concat('SAM)",
+    "character": "concat('a)",
+    "name": "concat('letter-A)",
+    "done": "list(list(), 0, 'none)",
+    "letter": "rule(concat('letter-A), 'of = 'asl)",
+    "at": "^Mssp",
     "param$0": "s",
 }
 """What stands for an argument that must be given, by its name; a score for any other."""
@@ -59,7 +65,7 @@ def _argument(rule: Rule, name: str) -> str:
 
 
 def test_the_shipped_texts_are_sound() -> None:
-    assert shipped_names() == ("asl", "core", "lsf")
+    assert shipped_names() == ("asl", "core", "lsf", "tid")
     for name in shipped_names():
         assert shipped_library(name).diagnostics == []
     for rule in RULES:
@@ -74,7 +80,7 @@ def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     assert rule.entry("status") in STATUSES
     text = _application(rule)
     found = value(text, _uses(rule))
-    assert isinstance(found, ScoreValue | ConstraintsValue | ListValue | PointValue)
+    assert isinstance(found, ScoreValue | ConstraintsValue | ListValue | PointValue | TextValue | BooleanValue)
     if isinstance(found, ScoreValue):
         assert problems(_uses(rule) + text) == []
         assert program(_uses(rule) + text).check(Side.LEFT) == ()

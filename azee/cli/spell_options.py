@@ -111,8 +111,8 @@ def times_of(
     """
     from azee.spelling.timing.schedule import NotRecordedError, Pace, schedule
 
-    if not word.isalpha():
-        raise click.BadParameter(f"`{word}` is no word of letters", param_hint="WORD")
+    if not word.isalnum():
+        raise click.BadParameter(f"`{word}` is no word of letters and digits", param_hint="WORD")
     pace = Pace(speed, transition_factor, syllable_factor, spelling)
     try:
         return schedule(word, chosen, pace, model=model, holds=holds, transitions=transitions)

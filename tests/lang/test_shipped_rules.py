@@ -10,10 +10,12 @@ from evaluations import constraints, group, problems, program, times, value
 from azee.lang.library import shipped_library
 from azee.lang.rule import STATUSES, Rule
 from azee.lang.values import (
+    BooleanValue,
     ConstraintsValue,
     ListValue,
     PointValue,
     ScoreValue,
+    TextValue,
     VectorValue,
 )
 from azee.score.score import Group, Key, leaves
@@ -42,6 +44,12 @@ ARGUMENTS = {
     "face": ".frown",
     "class": ".building-cl",
     "n": "3",
+    "text": "concat('SAM)",
+    "character": "concat('a)",
+    "name": "concat('letter-A)",
+    "done": "list(list(), 0, 'none)",
+    "letter": "rule(concat('letter-A), 'of = 'asl)",
+    "at": "^Mssp",
     "param$0": "s",
     "fingers": "^up",
     "palm": "^fwd",
@@ -68,7 +76,7 @@ def _argument(rule: Rule, name: str) -> str:
 
 
 def test_the_shipped_texts_are_sound() -> None:
-    assert shipped_names() == ("asl", "core", "lsf")
+    assert shipped_names() == ("asl", "core", "lsf", "tid")
     for name in shipped_names():
         assert shipped_library(name).diagnostics == []
     for rule in RULES:
@@ -88,7 +96,10 @@ def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     elif rule.name in ("way", "axis"):
         assert isinstance(found, VectorValue)
     else:
-        assert isinstance(found, ScoreValue | ConstraintsValue | ListValue | PointValue)
+        assert isinstance(
+            found,
+            ScoreValue | ConstraintsValue | ListValue | PointValue | TextValue | BooleanValue,
+        )
     if isinstance(found, ScoreValue):
         assert problems(_uses(rule) + text) == []
         assert program(_uses(rule) + text).check(Side.LEFT) == ()

@@ -69,6 +69,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.motion": set(),
     "azee.wording": set(),
     "azee.spelling": set(),
+    "azee.spelling.text": {"azee.lang", "azee_grammar"},
     "azee.spelling.study": {"numpy", "scipy"},
     "azee.spelling.study.server": {"azee.spelling.study", "starlette", "jinja2"},
     "azee.spelling.study.report": {"azee.spelling.study", "numpy", "matplotlib", "jinja2"},

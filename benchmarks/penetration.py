@@ -20,12 +20,13 @@ import numpy as np
 
 from azee.compilation import perform, score_of
 from azee.lang.library import shipped_library
-from azee.lang.program import evaluate_expression, load
-from azee.lang.rule_example import example_of
+from azee.lang.program import load
+from azee.lang.rule_example import example_text
 from azee.motion.tasks.key_posture import KeyPosture
 from azee.score.score import Score
 from azee_grammar.files import read_source
 from azee_grammar.library import shipped_names
+from azee_grammar.source import Source
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver.constraint import Place
@@ -59,7 +60,8 @@ def scores(names: list[str]) -> Iterator[tuple[str, Score]]:
     for library in shipped_names():
         for rule in shipped_library(library).namespace.rules.values():
             if not names or rule.name in names:
-                yield f":{rule.name}", evaluate_expression(example_of(rule)).score
+                text = Source(rule.name, example_text(rule))
+                yield f":{rule.name}", score_of(load(text), None, None)
 
 
 def findings(sign: str, score: Score, rig: Rig) -> Iterator[Finding]:

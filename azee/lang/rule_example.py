@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from azee.lang.library import CORE, DEFAULT
 from azee.lang.program import load
 from azee.lang.values import Kind
 from azee_grammar.source import Source
@@ -28,6 +29,16 @@ def example_of(rule: Rule, libraries: Sequence[Path] = ()) -> str:
     if given:
         return f":{rule.name}({given})"
     return f"key(1, :#{rule.name})" if _is_posture(rule, libraries) else f":{rule.name}"
+
+
+def example_text(rule: Rule, libraries: Sequence[Path] = ()) -> str:
+    """Return a text that shows a rule: its example, after the `use` that it may need.
+
+    Args: libraries: folders that `use` looks in for the rule's library.
+    """
+    example = example_of(rule, libraries)
+    seen_anyway = rule.library in (CORE, DEFAULT)
+    return example if seen_anyway else f"use '{rule.library}\n{example}"
 
 
 def _is_posture(rule: Rule, libraries: Sequence[Path]) -> bool:

@@ -11,10 +11,13 @@ import pytest
 from formats import schema
 
 from azee.cli.main import run
+from azee.compilation import score_of
 from azee.lang.library import shipped_library
-from azee.lang.program import evaluate_expression
+from azee.lang.program import load
 from azee.lang.rule import STATUSES, Rule
+from azee.lang.rule_example import example_of, example_text
 from azee_grammar.library import shipped_names
+from azee_grammar.source import Source
 
 SHIPPED = [
     rule for name in shipped_names() for rule in shipped_library(name).namespace.rules.values()
@@ -49,8 +52,11 @@ def test_the_example_of_a_rule_can_be_evaluated(
 ) -> None:
     run(["rules", rule.name])
     shown = capsys.readouterr().out
-    example = " ".join(shown[shown.index("\n  example   ") :].split()[1:])
-    assert evaluate_expression(example).score.duration >= 0
+    own = shown[shown.index(f"\n  library   {rule.library}\n") :]
+    printed = own[own.index("\n  example   ") :].partition("\n\n")[0].split()[1:]
+    assert " ".join(printed) == " ".join(example_of(rule).split())
+    text = Source(rule.name, example_text(rule))
+    assert score_of(load(text), None, None).duration >= 0
 
 
 def test_the_colon_may_be_written(capsys: pytest.CaptureFixture[str]) -> None:

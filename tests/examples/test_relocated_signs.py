@@ -9,10 +9,9 @@ from typing import Any
 import pytest
 
 from azee.compilation import perform
-from azee.lang.library import shipped_library
+from azee.lang.library import CORE, DEFAULT, shipped_library
 from azee.lang.program import evaluate_expression, load
 from azee.score.score import Key, Score, leaves
-from azee_grammar.library import shipped_names
 from azee_grammar.source import Source
 from azee_rig.load import load_rig, shipped_rigs
 from azee_rig.rig import Rig
@@ -59,13 +58,17 @@ def _signs() -> Iterator[tuple[str, str]]:
     """Yield signs by name, each with a text in which `{}` is an offset from the usual place.
 
     They take `'loc`, or all that a rule of `lsf` places, it places in space. Names that only
-    forward are left out.
+    forward are left out, and letters, whose `'loc` is where a hand spells.
     """
     rig, program = load_rig(), load(Source("<none>", ""))
-    for library in shipped_names():
+    for library in (CORE, DEFAULT):
         for rule in shipped_library(library).namespace.rules.values():
             parameters = dict(rule.parameters)
-            if any(parameters.values()) or (rule.entry("source") or "").endswith("forwards"):
+            if (
+                any(parameters.values())
+                or "hold" in parameters
+                or (rule.entry("source") or "").endswith("forwards")
+            ):
                 continue
             value = program.value(f":{rule.name}")
             if not isinstance(value.content, Score):

@@ -13,16 +13,18 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from azee.animation import animate
+from azee.compilation import score_of
 from azee.lang.library import shipped_library
-from azee.lang.program import evaluate_expression
+from azee.lang.program import load
 from azee.lang.reflection import MIRROR
-from azee.lang.rule_example import example_of
+from azee.lang.rule_example import example_text
 from azee.motion.overlay.trill import FADE_S, Oscillation
 from azee.motion.tasks.requirement import Requirement
 from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
 from azee.score.score import Key, Score, leaves
 from azee_grammar.library import shipped_names
+from azee_grammar.source import Source
 from azee_rig.rig import Rig
 from azee_solver.constraint import Trill
 from azee_solver.geometry import Bone, Side, Vec
@@ -45,7 +47,7 @@ def test_trills_of_rules_are_seen_at_the_finger_tips(signer: Rig) -> None:
     found = {}
     for library in shipped_names():
         for rule in shipped_library(library).namespace.rules.values():
-            score = evaluate_expression(example_of(rule)).score
+            score = score_of(load(Source(rule.name, example_text(rule))), None, None)
             if any(trills(score)):
                 found[rule.name] = score
     assert {"cinéma", "mignon"} <= found.keys()

@@ -69,9 +69,8 @@ def measured(place: str, count: int) -> bool:
             looks = [partial(database.find, query) for query in queries]
             met.append(_row(f"{what}, {statistics.mean(found):.0f} found", looks, LOOK_UP_S))
         signs = [database.one(name) for name in some]
-        met.append(
-            _row("its motion", [partial(database.motion, sign) for sign in signs], LOOK_UP_S)
-        )
+        motions = [partial(database.motion, sign) for sign in signs]
+        met.append(_row("its motion", motions, LOOK_UP_S))
     print(f"the command, from its start: {1e3 * _command_s(place, names[0]):.0f} ms")
     return all(met)
 

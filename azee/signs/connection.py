@@ -87,8 +87,8 @@ class Store:
     @contextmanager
     def reading(self) -> Iterator[Connection]:
         """Give one state of the database. Raises: SignsError: sign-database."""
-        with self._in_words(), self.engine.connect() as connection, connection.begin():
-            yield connection
+        with self._in_words(reads=True), self.engine.connect() as one, one.begin():
+            yield one
 
     @contextmanager
     def writing(self) -> Iterator[Connection]:
@@ -114,23 +114,30 @@ class Store:
                 connection.close()
 
     @contextmanager
-    def _in_words(self) -> Iterator[None]:
+    def _in_words(self, *, reads: bool = False) -> Iterator[None]:
         try:
             yield
         except DBAPIError as error:
             if _code(error.orig) in ("23505", "SQLITE_CONSTRAINT_UNIQUE"):
                 raise
-            raise self._worded(error) from error
+            raise self._worded(error, reads) from error
         except (UnicodeDecodeError, JSONDecodeError) as error:  # a text that nobody wrote
             raise self._damaged() from error
 
-    def _worded(self, error: DBAPIError) -> SignsError:
+    def _worded(self, error: DBAPIError, reads: bool) -> SignsError:
         code, name = _code(error.orig), self.name
         if code.startswith(_FULL):
             return SignsError(
                 "sign-database",
                 f"the disk of `{name}` is full: what was stored before is kept, nothing is added",
                 "make room, and run the same command again",
+            )
+        if code.startswith(_READ_ONLY) and reads:
+            return SignsError(
+                "sign-database",
+                f"`{name}` cannot be read where it is: SQLite keeps its log beside it, and the "
+                "folder may not be written to",
+                "copy the file to a folder of your own",
             )
         if code.startswith(_READ_ONLY):
             return SignsError("sign-database", f"`{name}` may only be read")

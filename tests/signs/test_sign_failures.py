@@ -15,7 +15,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from made_signs import STICK, facts, motion
-from sqlalchemy import event
+from sqlalchemy import event, text
 
 from azee.signs.copying import copy_all
 from azee.signs.database import SignDatabase
@@ -119,6 +119,13 @@ def test_two_write_while_four_read_and_no_reader_waits(database_place: str) -> N
     assert len(whole(database_place)) == 300
 
 
+def test_sqlite_keeps_a_write_ahead_log_and_writes_through(tmp_path: Path) -> None:
+    signs, _ = SignDatabase.create(str(tmp_path / "signs.db"))
+    with signs, signs.store.reading() as connection:
+        for pragma, value in (("journal_mode", "wal"), ("synchronous", 2), ("foreign_keys", 1)):
+            assert connection.execute(text(f"PRAGMA {pragma}")).scalar() == value
+
+
 def test_a_full_disk_keeps_what_is_there(tmp_path: Path) -> None:
     signs, _ = SignDatabase.create(str(tmp_path / "signs.db"))
     with signs:
@@ -154,14 +161,14 @@ def test_a_database_that_may_only_be_read_is_read(tmp_path: Path) -> None:
 
 
 def test_what_is_no_database_is_told(tmp_path: Path) -> None:
-    text = tmp_path / "text.db"
-    text.write_text("not a database " * 100, encoding="utf-8")
+    prose = tmp_path / "text.db"
+    prose.write_text("not a database " * 100, encoding="utf-8")
     empty = tmp_path / "empty.db"
     empty.touch()
     for place, said in (
         (str(tmp_path / "none.db"), "no such file"),
         (str(tmp_path), "a directory"),
-        (str(text), "is no database"),
+        (str(prose), "is no database"),
         (str(empty), "has no tables for signs"),
         ("mysql://x/y", "not in mysql"),
         ("no url://", "is no URL of a database"),

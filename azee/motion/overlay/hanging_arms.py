@@ -1,4 +1,4 @@
-"""Arms that hang stay plumb when the trunk leans to their side, as weight keeps them."""
+"""Arms that hang yield where a leaning or turning trunk carries them into the hip."""
 
 from __future__ import annotations
 
@@ -12,37 +12,34 @@ from azee_solver import kinematics
 
 Array = NDArray[np.float64]
 
-TRUNK = "back_2"
-"""The bone that carries the shoulders."""
 HANGS_RAD = 0.25
 """So far from its rest an arm hardly hangs any more: root of the sum of squares of its angles."""
 SOFT_RAD = math.radians(0.5)
-"""Leans below this are half as much to either side: no jerk where a lean begins."""
-SIGNS = {"L": 1.0, "R": -1.0}
-"""Of a lean to that side."""
+"""What is to be yielded grows from nothing within this: no jerk where a lean begins."""
+INWARD = {"L": -1.0, "R": 1.0}
+"""Sense of x, which points to the left."""
 
 
 def yielding_to_leans(rig: Rig, q: Array, rest: Array) -> Array:
     """Return what hanging arms yield, (T, V) radians, in a movement q (T, V).
 
-    Without it the trunk would carry a hand into the hip that it leans towards. The other arm
-    keeps its angle, away from the body. rest: (V,) the posture in which the arms hang.
+    Where the trunk leans to one side or turns, it carries a hand towards the hip. The upper arm
+    then goes outwards until the hand is no nearer to the middle than at rest. An arm that is
+    carried outwards keeps its angle. rest: (V,) the posture in which the arms hang.
     """
     out = np.zeros_like(q)
     index = rig.coordinates.index
-    if TRUNK not in rig.bones:
-        return out
-    up = kinematics.frames(rig.chain, q).rotations[:, rig.bones[TRUNK].node, :, 1]
-    upright = rig.chain.frames(rest).rotations[rig.bones[TRUNK].node, :, 1]
-    lean = np.arctan2(up[:, 0], up[:, 1]) - math.atan2(upright[0], upright[1])
-    for side, sign in SIGNS.items():
-        arm = [
-            v for name, v in index.items() if name.startswith((f"arm_{side}.", f"f_arm_{side}."))
-        ]
-        if f"arm_{side}.abduction" not in index:
+    moved = kinematics.frames(rig.chain, q).positions
+    at_rest = rig.chain.frames(rest).positions
+    for side, inward in INWARD.items():
+        if f"palm_{side}" not in rig.bones or f"arm_{side}.abduction" not in index:
             continue
+        shoulder, hand = rig.bones[f"arm_{side}"].node, rig.bones[f"palm_{side}"].node
+        carried_m = inward * (moved[:, hand, 0] - at_rest[hand, 0])
+        angle = carried_m / np.linalg.norm(at_rest[hand] - at_rest[shoulder])
+        outwards = 0.5 * (angle + np.hypot(angle, SOFT_RAD) - SOFT_RAD)
+        bones = (f"arm_{side}.", f"f_arm_{side}.")
+        arm = [v for name, v in index.items() if name.startswith(bones)]
         off = np.linalg.norm(q[:, arm] - rest[arm], axis=1)
-        towards = sign * lean
-        out_of_the_way = 0.5 * (towards + np.hypot(towards, SOFT_RAD) - SOFT_RAD)
-        out[:, index[f"arm_{side}.abduction"]] = out_of_the_way * np.exp(-((off / HANGS_RAD) ** 2))
+        out[:, index[f"arm_{side}.abduction"]] = outwards * np.exp(-((off / HANGS_RAD) ** 2))
     return out

@@ -26,7 +26,9 @@ class Spelling(click.Group):
         return super().parse_args(ctx, args)
 
 
-@click.group("spell", cls=Spelling, short_help="Fingerspelling: words as movement, and their times.")
+@click.group(
+    "spell", cls=Spelling, short_help="Fingerspelling: words and when their letters happen."
+)
 def spell() -> None:
     """Spell words, and work on when their letters happen.
 

@@ -48,9 +48,7 @@ if TYPE_CHECKING:
 @click.option(
     "--rig", metavar="R", default="signer", show_default=True, help="A body by name, or its folder."
 )
-@click.option(
-    "--fps", type=Number(1, 1000), default=30, show_default=True, help="Frames a second."
-)
+@click.option("--fps", type=Number(1, 1000), default=30, show_default=True, help="Frames a second.")
 @dominant_option
 @rest_option
 @click.option("--no-life", is_flag=True, help="No breathing, no blinking and no sway.")

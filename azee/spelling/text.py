@@ -25,7 +25,7 @@ TEXT_MODES: tuple[TextMode, ...] = get_args(TextMode)
 _THESIS = str.maketrans("iCGIOSU", "İÇĞIÖŞÜ")
 """Characters in the lists of Gürel (2010, section 5.2): small letters are those of English, and a
 capital stands for the Turkish letter that is like it."""
-_THESIS_LETTERS = frozenset("abcdefghijklmnoprstuvyz" "CGIOSU")
+_THESIS_LETTERS = frozenset("abcdefghijklmnoprstuvyzCGIOSU")
 PAUSE_S = 0.5
 """Between words: Gürel (2010) has a sign for it, which is a pause."""
 
@@ -104,7 +104,7 @@ def _letter(character: str, language: Language) -> str | None:
     """Return what a character is in an alphabet, none if its library has no rule for it."""
     if not character.isalnum():
         return None
-    asked = f"apply(rule(\"spelled-as\", 'of = '{language}), 'character = \"{character}\")"
+    asked = f'apply(rule("spelled-as", \'of = \'{language}), \'character = "{character}")'
     found = load(Source("<spelled>", "")).value(asked)
     name = found.content if isinstance(found, TextValue) else ""
     rules = shipped_library(language).namespace.rules

@@ -9,7 +9,14 @@ from evaluations import constraints, group, problems, program, times, value
 
 from azee.lang.library import shipped_library
 from azee.lang.rule import STATUSES, Rule
-from azee.lang.values import BooleanValue, ConstraintsValue, ListValue, PointValue, ScoreValue, TextValue
+from azee.lang.values import (
+    BooleanValue,
+    ConstraintsValue,
+    ListValue,
+    PointValue,
+    ScoreValue,
+    TextValue,
+)
 from azee.score.score import Group, Key, leaves
 from azee_grammar.library import shipped_names
 from azee_solver.constraint import LookAt, Morph, Place, Rotate
@@ -80,7 +87,9 @@ def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     assert rule.entry("status") in STATUSES
     text = _application(rule)
     found = value(text, _uses(rule))
-    assert isinstance(found, ScoreValue | ConstraintsValue | ListValue | PointValue | TextValue | BooleanValue)
+    assert isinstance(
+        found, ScoreValue | ConstraintsValue | ListValue | PointValue | TextValue | BooleanValue
+    )
     if isinstance(found, ScoreValue):
         assert problems(_uses(rule) + text) == []
         assert program(_uses(rule) + text).check(Side.LEFT) == ()

@@ -47,6 +47,7 @@ bench-blender: $(READY) ## compare it with Blender and pinocchio too; installs t
 bench-tracker: $(READY) ## compare our films with people by a tracker, which it installs (1.2 GB)
 	@mkdir -p out
 	@$(RUN) -m benchmarks.tracker -o out/tracker.json
+	@$(RUN) -m benchmarks.tracker.faces
 
 SECONDS ?= 60
 fuzz: $(READY) ## search for texts that break the language, for SECONDS=60; on Linux
@@ -80,6 +81,7 @@ pictures: $(READY) readme-picture ## draw all pictures of the documents and of t
 	@$(RUN) docs/language/mouths.py
 	@$(RUN) docs/film_pictures.py
 	@$(RUN) docs/facial_rules.py
+	@$(RUN) docs/number_pictures.py
 	@$(RUN) docs/repl_pictures.py
 
 readme-picture: $(READY) ## draw the moving picture of README.md again

@@ -22,6 +22,7 @@ from azee.motion.overlay.accents import layers as accent_layers
 from azee.motion.overlay.accents import shortfalls as accent_shortfalls
 from azee.motion.overlay.blinks import BLINK, blinks, boundaries, lids_busy
 from azee.motion.overlay.face import RAMP_S, face_weights
+from azee.motion.overlay.hanging_arms import yielding_to_leans
 from azee.motion.overlay.labels import labels
 from azee.motion.overlay.life import AFTER_S, BEFORE_S
 from azee.motion.overlay.life import life as life_of
@@ -162,6 +163,8 @@ def animate(
     # 11. Sample the movement at the clip's frames, and lay accents and life on it.
     times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)
     reference = _with_layers(planned, schedule, times, seed if life else None, layered=layered)
+    if layered and rest == "hanging":
+        reference = replace(reference, q=reference.q + yielding_to_leans(rig, reference.q, at_rest))
 
     # 12. Draw it onto the constraints in force; in flat mode it stays as it is.
     if layered:

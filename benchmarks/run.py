@@ -17,6 +17,7 @@ MODULES = {
     "waits": "benchmarks.waits",
     "language": "benchmarks.language_growth",
     "signs": "benchmarks.signs",
+    "signs-db": "benchmarks.sign_database",
     "motion": "benchmarks.motion_length",
     "prompt": "benchmarks.prompt",
     "frames": "benchmarks.frames",
@@ -25,6 +26,7 @@ MODULES = {
     "continuity": "benchmarks.continuity",
     "penetration": "benchmarks.penetration",
     "likeness": "benchmarks.likeness",
+    "lexicon": "benchmarks.lexicon",
     "solver": "benchmarks.solver_bench",
 }
 

@@ -3,7 +3,7 @@
     python docs/letter_sheets.py [asl|lsf|tid …]
 
 Each is performed by the signer. Letters that stand still are shown from two sides, those that move
-at three instants. What a letter misses is told.
+at two instants. What a letter misses is told.
 """
 
 from __future__ import annotations
@@ -51,11 +51,11 @@ def performed(language: Language, letter: str) -> Compilation:
 
 
 def shown(made: Compilation, hands: str) -> list[Image.Image]:
-    """Draw the hands at one instant from two sides, or at three instants from the front."""
+    """Draw the hands at one instant from two sides, or at two instants from the front."""
     length = float(made.score.duration)
     moves = length > HOLD_S + 0.01
     out = []
-    for share in (0.15, 0.55, 0.95) if moves else (0.5,):
+    for share in (0.15, 0.95) if moves else (0.5,):
         instant = made.report.lead_s + share * length
         q = made.clip.coordinates[int(np.abs(made.clip.times - instant).argmin())]
         frames = made.rig.chain.frames(q)

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Sequence
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
+from uuid import uuid4
 
 import pytest
 from hypothesis import HealthCheck, settings
 from programs import NODE_FOLDER, Node, Python
+from servers import NoServerError, postgresql_server
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -25,6 +29,13 @@ settings.register_profile(
 settings.register_profile("search", settings.get_profile("repeatable"), derandomize=False)
 settings.register_profile("long", settings.get_profile("search"), max_examples=5000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Keep what programs keep in a folder of these tests alone."""
+    folder = tempfile.mkdtemp(prefix="azee-tests-")
+    os.environ["AZEE_CACHE"] = folder
+    config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -71,6 +82,31 @@ def assimp() -> str:
     return found
 
 
+@pytest.fixture(scope="session")
+def postgresql() -> Iterator[str]:
+    """URL of a PostgreSQL that only these tests use, with {} for the name of a database."""
+    with ExitStack() as stack:
+        try:
+            url = stack.enter_context(postgresql_server())
+        except NoServerError as error:
+            _missing(str(error))
+        yield url
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def database_place(request: pytest.FixtureRequest, tmp_path: Path) -> str:
+    """Where a database may be made: a test that asks for it runs for both kinds."""
+    if request.param == "sqlite":
+        return str(tmp_path / "signs.db")
+    import psycopg
+
+    server: str = request.getfixturevalue("postgresql")
+    name = f"signs_{uuid4().hex}"
+    with psycopg.connect(server.format("postgres"), autocommit=True) as connection:
+        connection.execute(f'CREATE DATABASE "{name}"'.encode())
+    return server.format(name)
+
+
 def _program(names: Sequence[str], title: str) -> str:
     """Path of the first program that exists; else the test is skipped, or fails in CI."""
     found = next(filter(None, map(shutil.which, names)), None)
@@ -82,7 +118,7 @@ def _program(names: Sequence[str], title: str) -> str:
     return found
 
 
-def _missing(reason: str) -> None:
+def _missing(reason: str) -> NoReturn:
     if os.environ.get("AZEE_REQUIRE_BROWSER"):
         pytest.fail(reason)
     pytest.skip(reason)

@@ -121,7 +121,8 @@ def _rules(
     """Yield the rules of the text itself, then those in scope whose result may fit."""
     for name in where.defined:
         yield Description(What.RULE, f"{sigil}{name}", f":{name}", "a rule of this text")
-    for rule in knowledge.rules():
+    typed = folded(where.name)
+    for rule in knowledge.rules(lambda name: _rank(typed, name) is not None):
         kind = knowledge.gives(rule)
         if sigil == ".":
             kind = Kind.OPERATOR if wanted.kinds else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -47,10 +47,10 @@ class Knowledge:
         except AmbiguousRule as several:
             return several.rules[0]
 
-    def rules(self) -> Iterator[Rule]:
-        """Yield every rule in scope."""
+    def rules(self, fits: Callable[[str], bool] = lambda _: True) -> Iterator[Rule]:
+        """Yield the rules in scope whose names fit; of a large library only these are read."""
         for name in self.scope.names():
-            if (rule := self.rule(name)) is not None:
+            if fits(name) and (rule := self.rule(name)) is not None:
                 yield rule
 
     def libraries(self) -> tuple[str, ...]:

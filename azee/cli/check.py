@@ -52,15 +52,19 @@ def check(
     body = None if rig is None else load_body(rig)
     texts: Sequence[str | None] = files or [None]
     applications: list[Written] = []
+    from azee.lang.library_folder import Shelf
+
     found: list[Diagnostic] = []
+    shelf = Shelf()
     for file in texts:
         try:
-            text = Text.read(file, expression, None, libraries)
+            text = Text.read(file, expression, None, libraries, shelf)
         except AZeeError as error:
             found += error.diagnostics
             continue
         found += _checked(text, body, strict_body)
         applications += text.applications if trust else ()
+    shelf.keep()
     if form == "json":
         known = {"provenance": _as_json(applications)} if trust else {}
         show_json({"diagnostics": as_json(found), **known})

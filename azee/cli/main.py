@@ -21,9 +21,12 @@ from azee.cli.clip import clip
 from azee.cli.compile import compile_
 from azee.cli.console import DONE, FAULT, INTERRUPTED, show
 from azee.cli.corpus import corpus
+from azee.cli.db import db
 from azee.cli.elan import elan
 from azee.cli.find import find
 from azee.cli.fmt import fmt
+from azee.cli.gloss import gloss
+from azee.cli.lexicon import lexicon
 from azee.cli.lsp import lsp
 from azee.cli.manifest import manifest
 from azee.cli.render import render
@@ -53,7 +56,10 @@ azee.add_command(score)
 azee.add_command(render)
 azee.add_command(clip)
 azee.add_command(find)
+azee.add_command(lexicon)
+azee.add_command(gloss)
 azee.add_command(corpus)
+azee.add_command(db)
 azee.add_command(elan)
 azee.add_command(lsp)
 azee.add_command(rules)

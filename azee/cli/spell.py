@@ -27,7 +27,7 @@ class Spelling(click.Group):
 
 
 @click.group(
-    "spell", cls=Spelling, short_help="Fingerspelling: words and when their letters happen."
+    "spell", cls=Spelling, short_help="Fingerspelling: words as movement, and their times."
 )
 def spell() -> None:
     """Spell words, and work on when their letters happen.

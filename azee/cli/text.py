@@ -14,6 +14,7 @@ from azee.cli.number import Number
 
 if TYPE_CHECKING:
     from azee.compilation import Hand
+    from azee.lang.library_folder import Shelf
     from azee.lang.program import Program
     from azee.lang.written import Written
     from azee.score.provenance import Provenance
@@ -110,8 +111,9 @@ class Text:
         expression: str | None,
         utterance: int | None,
         libraries: Sequence[Path],
+        shelf: Shelf | None = None,
     ) -> Text:
-        """Read what the command line names.
+        """Read what the command line names. shelf: as `load` takes it.
 
         Raises: click.UsageError: too little or too much of it. AZeeError: it cannot be read.
         """
@@ -124,7 +126,7 @@ class Text:
         if expression is not None and utterance is not None:
             raise click.UsageError("--utterance counts FILE's own and does not go with -e")
         source = Source("<none>", "") if file is None else read_source(file)
-        return cls(load(source, libraries), expression, utterance)
+        return cls(load(source, libraries, shelf=shelf), expression, utterance)
 
     def score(self, dominant: Hand = "right") -> Score:
         """Evaluate what is wanted. Raises: AZeeError: all that is wrong with it."""

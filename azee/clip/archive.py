@@ -77,7 +77,25 @@ def read_clip(path: str | Path, rig: Rig) -> Clip:
 
     Raises: ClipFileError: the file is not a clip, or not one of this body. OSError.
     """
-    header, arrays = _read(path)
+    return _clip(*_read(path), path, rig)
+
+
+def unpack_clip(data: bytes, rig: Rig, name: str) -> Clip:
+    """Read a clip from the bytes of its file, as `read_clip` does.
+
+    Args: name: of the clip, for messages.
+    Raises: ClipFileError: they are not a clip, or not one of this body.
+    """
+    return _clip(*_unpacked(io.BytesIO(data), name), name, rig)
+
+
+def frames_of(data: bytes, name: str) -> int:
+    """Return the number of frames of a clip in the bytes of its file. Raises: ClipFileError."""
+    return len(_unpacked(io.BytesIO(data), name)[1]["times"])
+
+
+def _clip(header: dict[str, Any], arrays: dict[str, Any], path: str | Path, rig: Rig) -> Clip:
+    """Return what a file holds. Raises: ClipFileError."""
     try:
         names, stored = header["coordinates"], arrays["coordinates"]
         foreign = [name for name in names if name not in rig.coordinates.index]
@@ -122,12 +140,18 @@ def rig_of(path: str | Path) -> str:
 
 
 def _read(path: str | Path) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return header and arrays of a file whose header says that it is a clip.
+    """Return header and arrays of a file whose header says that it is a clip."""
+    with Path(path).open("rb") as file:
+        return _unpacked(file, path)
+
+
+def _unpacked(file: IO[bytes], path: str | Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return header and arrays of a clip.
 
     A plain .npy is not a context manager and not a clip: its TypeError is one of `UNREADABLE`.
     """
     try:
-        with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as packed:
+        with np.load(file, allow_pickle=False) as packed:
             if "header" not in packed:
                 raise ClipFileError(f"`{path}` is not a clip that azee wrote")
             header = json.loads(packed["header"].tobytes())

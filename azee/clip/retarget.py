@@ -67,6 +67,12 @@ class Retargeted:
     palm_rad: Floats
     tip_m: Mapping[str, Floats]
 
+    @property
+    def is_as_it_was(self) -> bool:
+        """Whether nothing had to be carried over."""
+        errors = (self.wrist_m, self.palm_rad, *self.tip_m.values())
+        return not any(error.any() for error in errors)
+
     def kept(self, body: Rig) -> str:
         """Tell in how many frames hands are where they were, and how far hands and fingers are off.
 

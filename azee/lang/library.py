@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
+from functools import cache
 from pathlib import Path
 
+from azee.lang.lazy_rules import LazyRules
+from azee.lang.library_folder import Shelf, definitions, leads_outside, own_name, parsed_text, texts
+from azee.lang.library_index import LibraryIndex
 from azee.lang.places import declare_places, utterances
 from azee.lang.resolve import Resolving
-from azee.lang.rule import Rule, is_azop
+from azee.lang.rule import Rule
 from azee.lang.scope import Namespace, Scope
 from azee_grammar.diagnostic import AZeeError, Diagnostic, Related
 from azee_grammar.files import TEXT_SUFFIXES, is_file, is_folder, read_source
+from azee_grammar.installed import installed_library, installed_names
 from azee_grammar.library import shipped, shipped_names
 from azee_grammar.nearest import nearest
-from azee_grammar.parser import Parsed, parse
-from azee_grammar.source import Source
-from azee_grammar.syntax import Definition, File, Use, Utterance
+from azee_grammar.source import Source, Span
+from azee_grammar.syntax import Definition, File, Use
 
 CORE = "core"
 DEFAULT = "lsf"
@@ -31,25 +33,20 @@ class Library:
 
     namespace: Namespace
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    index: LibraryIndex | None = None
+    """What is known of its files, if they are read when their rules are named."""
 
-
-def own_name(file: File) -> str | None:
-    """Return the name of the rule in a file that has only an `azop`: the name of the file."""
-    if len(file.items) != 1 or not isinstance(item := file.items[0], Utterance):
-        return None
-    if not is_azop(item.expr):
-        return None
-    return unicodedata.normalize("NFC", Path(item.span.source.name).stem)
-
-
-def definitions(file: File) -> Iterator[Definition]:
-    """Yield what a file defines, in order."""
-    name = own_name(file)
-    for item in file.items:
-        if isinstance(item, Definition):
-            yield item
-        elif isinstance(item, Utterance) and name is not None:
-            yield Definition(item.span, name, item.expr.span, (), item.expr)
+    def note_sound(self) -> None:
+        """Note in the index which of the files that were read and checked have no mistake."""
+        if self.index is None:
+            return
+        faulty = {d.span.source.name for d in self.diagnostics if d.span}
+        files: dict[str, bool] = {}
+        for rule in self.namespace.read.values():
+            name = rule.definition.span.source.name
+            sound = rule.is_resolved and not rule.diagnostics and name not in faulty
+            files[name] = files.get(name, True) and sound
+        self.index.found_sound(Path(name).name for name, sound in files.items() if sound)
 
 
 def define(
@@ -57,7 +54,7 @@ def define(
 ) -> Iterator[Diagnostic]:
     """Add rules to a namespace; yield `duplicate-definition` for names that exist."""
     for definition in found:
-        other = namespace.rules.get(definition.name)
+        other = namespace.read.get(definition.name)
         if other is None:
             rule = Rule(definition, namespace.name, scope, resolving)
             namespace.rules[definition.name] = rule
@@ -68,6 +65,18 @@ def define(
             definition.name_span,
             related=(Related("the first is defined", other.definition.name_span),),
         )
+
+
+def _vanished(name: str, file: Path, library: Library, resolving: Resolving) -> Rule:
+    """Return what stands for a rule whose file changed since it was indexed."""
+    source = Source(str(file), "")
+    span = Span(source, 0, 0)
+    message = f"`{file}` changed while it was read: it has no rule `{name}` any more"
+    found = [Diagnostic("cannot-read", message, None, help="run it again")]
+    scope = Scope(library.namespace, Namespace(None))
+    return Rule(
+        Definition(span, name, span, (), None), library.namespace.name, scope, resolving, found
+    )
 
 
 class Librarian:
@@ -84,7 +93,9 @@ class Librarian:
         resolving: Resolving,
         core: Namespace,
         read: Callable[[Path], Source] = read_source,
+        shelf: Shelf | None = None,
     ) -> None:
+        self._shelf = shelf or Shelf()
         self._folders = folders
         self._read_source = read
         self._resolving = resolving
@@ -129,50 +140,65 @@ class Librarian:
             return None
         folder = path.parent
         try:
-            others = [text for text in _texts(folder) if text != path]
+            others = [text for text in self._shelf.listing(folder).files if text != path]
         except OSError:
             return None
         if not others:
             return None
-        return self._read(folder.name or folder.resolve().name, folder).namespace
+        name = folder.name or folder.resolve().name
+        return self._read(name, folder, check=False).namespace
 
     def _found(self, name: str, folder: Path | None) -> Library | None:
         if not _is_plain(name):
             return None
         for path in self._candidates(name, folder):
-            if not _leads_outside(path, path.parent):
+            if not leads_outside(path, path.parent):
                 return self._read(name, path)
-        return shipped_library(name) if name in shipped_names() else None
+        if name in shipped_names():
+            return shipped_library(name)
+        installed = installed_library(name)
+        return (
+            None if installed is None else self._read(name, installed, check=False, installed=True)
+        )
 
     def _candidates(self, name: str, folder: Path | None) -> Iterator[Path]:
         """Yield the folders and texts of a plain name, the nearest first."""
         beside = () if folder is None else (folder, folder.parent)
         for place in (*beside, *self._folders):
             for path in (place / name, *(place / f"{name}{suffix}" for suffix in TEXT_SUFFIXES)):
-                if is_folder(path) if path.name == name else is_file(path):
+                if (is_folder(path) and _has_texts(path)) if path.name == name else is_file(path):
                     yield path
 
     def _outside(self, name: str, folder: Path | None) -> Path | None:
         """Return the first link of a name that is not followed."""
         return next(self._candidates(name, folder), None)
 
-    def _read(self, name: str, path: Path) -> Library:
+    def _read(
+        self, name: str, path: Path, *, check: bool = True, installed: bool = False
+    ) -> Library:
+        """Read a library, once.
+
+        Args: check: whether mistakes in rules that nobody names count. installed: whether no
+            editor has newer texts of it than the disk.
+        """
         if path in self._libraries:
             return self._libraries[path]
         library = Library(Namespace(name))
         self._libraries[path] = library
-        is_whole = is_folder(path)
-        folder = path if is_whole else path.parent
-        try:
-            files = _texts(path) if is_whole else [path]
-        except OSError as problem:
-            library.diagnostics.append(_unreadable(path, problem))
-            return library
-        library.diagnostics += _same_but_for_case(files)
+        files: Sequence[Path] = [path]
+        folder = path.parent
+        if is_folder(path):
+            folder = path
+            try:
+                listing = self._shelf.listing(path)
+            except OSError as problem:
+                library.diagnostics.append(_unreadable(path, problem))
+                return library
+            library.diagnostics += listing.diagnostics
+            files = listing.files
+            if self._read_source is read_source or installed:
+                files = self._indexed(library, path, check=check)
         for file in files:
-            if is_whole and (obstacle := _obstacle(file, path)):
-                library.diagnostics.append(obstacle)
-                continue
             try:
                 source = self._read_source(file)
             except AZeeError as problem:
@@ -181,8 +207,25 @@ class Librarian:
             self._add(library, source, folder)
         return library
 
+    def _indexed(self, library: Library, folder: Path, *, check: bool) -> list[Path]:
+        """Let the rules of a folder be read when they are named; return the files to read now."""
+        index = self._shelf.index(folder)
+        library.index = index
+
+        def load(file: str, name: str) -> None:
+            try:
+                self._add(library, read_source(folder / file), folder)
+            except AZeeError as problem:
+                library.diagnostics += problem.diagnostics
+            if name not in rules.read:
+                rules[name] = _vanished(name, folder / file, library, self._resolving)
+
+        rules = LazyRules(index.names, load)
+        library.namespace.rules = rules
+        return [folder / name for name in index.unsound] if check else []
+
     def _add(self, library: Library, source: Source, folder: Path) -> None:
-        parsed = _parsed(source)
+        parsed = parsed_text(source)
         library.diagnostics += parsed.diagnostics
         scope, problems = self.scope(library.namespace, parsed.file, folder)
         library.diagnostics += problems
@@ -193,7 +236,8 @@ class Librarian:
 
     def _missing(self, use: Use, folder: Path | None) -> Diagnostic:
         name = use.library.name
-        found = [f"`'{candidate}`" for candidate in nearest(name, shipped_names())]
+        known = (*shipped_names(), *installed_names())
+        found = [f"`'{candidate}`" for candidate in nearest(name, known)]
         if not _is_plain(name):
             hint = "a library has a plain name; `--library DIR` adds folders to look in"
         elif outside := self._outside(name, folder):
@@ -202,7 +246,7 @@ class Librarian:
             hint = f"did you mean {' or '.join(found)}?"
         else:
             hint = "it is looked for beside this file, in each `--library DIR`, and among " + (
-                ", ".join(f"`'{known}`" for known in shipped_names())
+                ", ".join(f"`'{library}`" for library in known)
             )
         message = f"there is no library `'{name}`"
         return Diagnostic("library-not-found", message, use.library.span, help=hint)
@@ -216,7 +260,7 @@ def names_in(folder: Path) -> list[str]:
     inside = [
         path
         for path in folder.iterdir()
-        if _is_plain(path.name) and not _leads_outside(path, folder)
+        if _is_plain(path.name) and not leads_outside(path, folder)
     ]
     texts = {path.stem for path in inside if path.suffix in TEXT_SUFFIXES and is_file(path)}
     return sorted(texts | {path.name for path in inside if is_folder(path) and _has_texts(path)})
@@ -226,34 +270,12 @@ def _is_plain(name: str) -> bool:
     return not name.startswith(".") and not any(c in '/\\:*?"<>|\0' for c in name)
 
 
-def _texts(folder: Path) -> list[Path]:
-    return sorted(path for path in folder.iterdir() if path.suffix in TEXT_SUFFIXES)
-
-
 def _has_texts(folder: Path) -> bool:
     """Whether a folder is a library; what cannot be listed may be one, and is told when read."""
     try:
-        return bool(_texts(folder))
+        return bool(texts(folder))
     except OSError:
         return True
-
-
-def _leads_outside(path: Path, folder: Path) -> bool:
-    """Whether a path in a folder is a link to something that is not in it."""
-    try:
-        return path.is_symlink() and not path.resolve().is_relative_to(folder.resolve())
-    except (OSError, RuntimeError):  # links in a circle
-        return True
-
-
-def _obstacle(file: Path, library: Path) -> Diagnostic | None:
-    """Return why a text in a folder library is not read: a link out of it, a pipe, a device."""
-    if _leads_outside(file, library):
-        message = f"`{file}` is a link that leads outside its library"
-        return Diagnostic("cannot-read", message, None, help="copy the text into the folder")
-    if file.exists() and not is_file(file) and not is_folder(file):
-        return Diagnostic("cannot-read", f"`{file}` is not a plain file", None)
-    return None
 
 
 def _unreadable(folder: Path, problem: OSError) -> Diagnostic:
@@ -265,23 +287,6 @@ def _has_utterances(file: File) -> bool:
     return any(True for _ in utterances(file))
 
 
-@lru_cache(maxsize=256)
-def _parsed(source: Source) -> Parsed:
-    """Parse a text of a library, once: each file of a folder that is checked reads the others."""
-    return parse(source)
-
-
-def _same_but_for_case(files: Sequence[Path]) -> Iterator[Diagnostic]:
-    """Yield a diagnostic for files that some file systems cannot distinguish."""
-    seen: dict[str, Path] = {}
-    for path in files:
-        name = unicodedata.normalize("NFC", path.stem).casefold()
-        if name in seen:
-            message = f"`{path}` and `{seen[name]}` have the same name but for case or suffix"
-            yield Diagnostic("duplicate-definition", message, None)
-        seen.setdefault(name, path)
-
-
 # Shipped libraries ----------------------------------------------------------------------------
 
 SHIPPED_RESOLVING = Resolving()
@@ -291,11 +296,15 @@ SHIPPED_RESOLVING = Resolving()
 @cache
 def shipped_library(name: str) -> Library:
     """Return a library that ships. In scope of its rules are itself, its libraries and the core."""
-    library = Library(Namespace(name))
+    folder = shipped() / name
+    shelf = Shelf()
+    library = Library(Namespace(name), index=shelf.index(folder))
     core = library.namespace if name == CORE else shipped_library(CORE).namespace
-    for path in _texts(shipped() / name):
-        source = Source(f"{name}/{path.name}", read_source(path).text)
-        parsed = parse(source)
+    assert library.index is not None
+
+    def load(file: str, _: str) -> None:
+        source = Source(f"{name}/{file}", read_source(folder / file).text)
+        parsed = parsed_text(source)
         library.diagnostics += parsed.diagnostics
         scope = Scope(library.namespace, core, shipped=_shipped_rules)
         for item in parsed.file.items:
@@ -304,6 +313,9 @@ def shipped_library(name: str) -> Library:
         library.diagnostics += define(
             library.namespace, definitions(parsed.file), scope, SHIPPED_RESOLVING
         )
+
+    library.namespace.rules = LazyRules(library.index.names, load)
+    shelf.keep()
     return library
 
 

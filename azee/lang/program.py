@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
@@ -16,10 +16,9 @@ from azee.lang.library import (
     SHIPPED_RESOLVING,
     Librarian,
     define,
-    definitions,
-    own_name,
     shipped_library,
 )
+from azee.lang.library_folder import Shelf, definitions, own_name
 from azee.lang.machine import DEFAULT_LIMITS, Limits, Machine
 from azee.lang.places import declare_places, utterances
 from azee.lang.resolve import Resolving
@@ -69,6 +68,9 @@ class Program:
     """Mistakes in the text and its libraries that were found before resolving."""
     beside: Librarian
     """Has the library that the text is a file of; its mistakes count where its rules are used."""
+    shelf: Shelf = field(default_factory=Shelf)
+    shares_shelf: bool = False
+    """Whether who loaded it keeps the indices of libraries, after several texts."""
 
     @property
     def utterances(self) -> tuple[UtteranceScore, ...]:
@@ -101,13 +103,26 @@ class Program:
             sound: definitions and utterances that are skipped. They had no mistake, and no rule
             that they depend on has changed since.
         """
-        for rule in self._own_rules():
+        for rule in [*self._own_rules()]:
             if rule.definition not in sound:
                 _ = rule.procedure
         items = [item for item in self.utterance_items() if item not in sound]
         found = [d for item in items for d in self.problems(item, dominant)]
         found += unintroduced_places(self.file, self.scope, self.resolving)
-        return _tidy((*self.found, *found, *self._rule_diagnostics()), self.source)
+        tidy = _tidy((*self.found, *found, *self._rule_diagnostics()), self.source)
+        self._note_sound(tidy)
+        return tidy
+
+    def _note_sound(self, found: Sequence[Diagnostic]) -> None:
+        """Note which files of libraries have no mistake, so that they need not be checked again."""
+        for library in (*self.librarian.libraries, *self.beside.libraries):
+            library.note_sound()
+        if not found and self.scope.siblings is not None:
+            for library in self.beside.libraries:
+                if library.namespace is self.scope.siblings and library.index is not None:
+                    library.index.found_sound([Path(self.source.name).name])
+        if not self.shares_shelf:
+            self.shelf.keep()
 
     def problems(self, item: Utterance, dominant: Side = Side.RIGHT) -> tuple[Diagnostic, ...]:
         """Return the mistakes in one utterance of the text, in the order of discovery."""
@@ -182,7 +197,7 @@ class Program:
 
     def _own_rules(self) -> Iterator[Rule]:
         for namespace in (self.scope.own, *(x.namespace for x in self.librarian.libraries)):
-            yield from namespace.rules.values()
+            yield from namespace.read.values()
 
     def _rule_diagnostics(self) -> Iterator[Diagnostic]:
         """Yield the mistakes in rules, also in shipped rules if they were used."""
@@ -190,7 +205,7 @@ class Program:
             yield from rule.diagnostics
         beside = (library.namespace for library in self.beside.libraries)
         for namespace in (*beside, self.scope.core, *self.scope.libraries):
-            for rule in namespace.rules.values():
+            for rule in namespace.read.values():
                 yield from rule.diagnostics
 
     def _utterance(self, expr: Expr, diagnostics: list[Diagnostic]) -> UtteranceScore | None:
@@ -239,6 +254,7 @@ def load(
     limits: Limits = DEFAULT_LIMITS,
     read: Callable[[Path], Source] = read_source,
     place: Path | None = None,
+    shelf: Shelf | None = None,
 ) -> Program:
     """Parse a text and the libraries it uses; nothing is evaluated yet.
 
@@ -247,23 +263,28 @@ def load(
     Args: libraries: folders in which `use` looks, after the folder of the text.
         read: reads the texts of libraries; an editor has newer versions than the disk.
         place: the file of the text, by default the one of the source's name, if it exists.
+        shelf: the indices of libraries, if several texts are read while no file changes.
     """
     parsed = parse(source)
+    shared = shelf is not None
+    shelf = shelf or Shelf()
     resolving = Resolving(Machine(limits))
     core = shipped_library(CORE).namespace
-    librarian = Librarian(tuple(libraries), resolving, core, read)
+    librarian = Librarian(tuple(libraries), resolving, core, read, shelf)
     namespace = Namespace(None)
     path = place
     if path is None and is_file(named := Path(source.name)):
         path = named
     scope, problems = librarian.scope(namespace, parsed.file, path and path.parent)
-    beside = Librarian(tuple(libraries), resolving, core, read)
+    beside = Librarian(tuple(libraries), resolving, core, read, shelf)
     if path is not None:
         scope.siblings = beside.siblings(parsed.file, path)
     duplicates = list(define(namespace, definitions(parsed.file), scope, resolving))
     misplaced = declare_places(parsed.file, scope, resolving)
     found = (*parsed.diagnostics, *problems, *duplicates, *misplaced)
     in_libraries = tuple(d for library in librarian.libraries for d in library.diagnostics)
+    if not shared:
+        shelf.keep()
     return Program(
         source,
         parsed.file,
@@ -273,6 +294,8 @@ def load(
         limits,
         (*found, *in_libraries),
         beside,
+        shelf,
+        shared,
     )
 
 

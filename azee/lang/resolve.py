@@ -81,6 +81,8 @@ class Resolver:
     scope: Scope
     rule: str | None
     diagnostics: list[Diagnostic]
+    _helps: dict[str, str | None] = field(init=False, default_factory=dict)
+    """What names without a rule may mean: libraries have thousands to compare with."""
 
     def report(self, *diagnostics: Diagnostic) -> None:
         """Report a mistake."""
@@ -227,7 +229,9 @@ class Resolver:
             return None
         if rule is None:
             message = f"there is no rule `:{name}`"
-            hint = self._rule_help(name)
+            if name not in self._helps:
+                self._helps[name] = self._rule_help(name)
+            hint = self._helps[name]
             self.report(Diagnostic("unknown-rule", message, span, "no such rule", help=hint))
         return rule
 

@@ -109,6 +109,11 @@ class Rule:
                 )
 
     @property
+    def is_resolved(self) -> bool:
+        """Whether its body has been resolved, so that `diagnostics` are all there are."""
+        return "procedure" in self.__dict__
+
+    @property
     def diagnostics(self) -> Sequence[Diagnostic]:
         """The mistakes in the definition, as far as it has been resolved."""
         return self._diagnostics

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+from azee.lang.lazy_rules import LazyRules
 
 if TYPE_CHECKING:
     from azee.lang.places import NamedPlace
@@ -15,11 +17,16 @@ if TYPE_CHECKING:
 class Namespace:
     """The rules of one text or one library, by name.
 
-    `name` is None for the text itself.
+    `name` is None for the text itself. Rules of a library may be read when they are named.
     """
 
     name: str | None
-    rules: dict[str, Rule] = field(default_factory=dict)
+    rules: MutableMapping[str, Rule] = field(default_factory=dict)
+
+    @property
+    def read(self) -> MutableMapping[str, Rule]:
+        """The rules that were read so far."""
+        return self.rules.read if isinstance(self.rules, LazyRules) else self.rules
 
 
 class AmbiguousRule(Exception):  # noqa: N818 - not an error of ours: the caller reports it

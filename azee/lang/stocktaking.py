@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from azee.lang.library import shipped_library
+from azee.lang.library_folder import texts
 from azee.lang.manifest import FIELDS, Manifest, read_beside
 from azee.lang.program import load
 from azee.lang.scope import Namespace
@@ -43,6 +44,8 @@ def namespace_of(folder: Path) -> Namespace:
     place = folder.resolve()
     if place.parent == shipped().resolve():
         return shipped_library(place.name).namespace
+    if not texts(place):
+        raise _defines_nothing(folder)
     program = load(Source("<none>", f"use '{place.name}\n"), [place.parent])
     mistakes = [found for found in program.check() if found.severity is Severity.ERROR]
     if mistakes:
@@ -50,8 +53,12 @@ def namespace_of(folder: Path) -> Namespace:
     for library in program.librarian.libraries:
         if library.namespace.name == place.name and library.namespace.rules:
             return library.namespace
+    raise _defines_nothing(folder)
+
+
+def _defines_nothing(folder: Path) -> AZeeError:
     message = f"`{folder}` is no library: no file in it defines a rule"
-    raise AZeeError(Diagnostic("library-not-found", message, None))
+    return AZeeError(Diagnostic("library-not-found", message, None))
 
 
 def _missing(name: str) -> AZeeError:

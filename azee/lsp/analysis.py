@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -13,18 +13,9 @@ from azee.lang.program import Program, load
 from azee.lsp.document import Document
 from azee.lsp.occurrences import Occurrence, occurrences
 from azee_grammar.diagnostic import Diagnostic
+from azee_grammar.mentions import mentions
 from azee_grammar.source import Source
-from azee_grammar.syntax import (
-    Application,
-    Definition,
-    Expr,
-    Item,
-    Named,
-    OperatorName,
-    RuleName,
-    Use,
-    Utterance,
-)
+from azee_grammar.syntax import Definition, Item, Use, Utterance
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -133,7 +124,7 @@ class Analysis:
 
     def _mentions(self, item: Item) -> frozenset[str]:
         if id(item) not in self._mentioned:
-            self._mentioned[id(item)] = item, frozenset(_names(item))
+            self._mentioned[id(item)] = item, frozenset(mentions(item))
         return self._mentioned[id(item)][1]
 
     @cached_property
@@ -143,24 +134,6 @@ class Analysis:
 
 _FINDERS = ("rule", "has-rule")
 """Operators that find a rule by a text, which may be the name of any."""
-
-
-def _names(item: Item) -> Iterator[str]:
-    """Yield the names in an item that may be names of rules; a definition's own name is one."""
-    waiting: list[Expr | Named] = []
-    if isinstance(item, Definition):
-        yield item.name
-        waiting += [] if item.body is None else [item.body]
-    elif isinstance(item, Utterance):
-        waiting.append(item.expr)
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, Named):
-            waiting.append(node.value)
-        elif isinstance(node, Application):
-            if isinstance(node.head, RuleName | OperatorName):
-                yield node.head.name
-            waiting += node.operands
 
 
 def analyse(

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from azee.lang.library import CORE, Librarian, define, definitions, shipped_library
+from azee.lang.library import CORE, Librarian, define, shipped_library
+from azee.lang.library_folder import definitions
 from azee.lang.machine import DEFAULT_LIMITS, Machine
 from azee.lang.places import declare_places
 from azee.lang.program import Program
@@ -53,7 +54,7 @@ def assemble(
         duplicates = list(define(namespace, definitions(parsed.file), scope, resolving))
         misplaced = declare_places(parsed.file, scope, resolving)
         found += (*parsed.diagnostics, *problems, *duplicates, *misplaced)
-        from_files.rules |= namespace.rules
+        from_files.rules.update(namespace.rules)
         if any(isinstance(item, Use) for item in parsed.file.items):
             files_use = True
             libraries += scope.libraries

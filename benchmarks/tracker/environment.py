@@ -18,6 +18,7 @@ FOLDER = OUT / "env-mediapipe"
 PACKAGES = ("mediapipe==0.10.14", "av")
 VERSIONS = ("3.11", "3.12", "3.10", "3.9")
 TRACK = Path(__file__).with_name("track.py")
+FACE_MARKS = Path(__file__).with_name("face_marks.py")
 
 
 def interpreter() -> Path:
@@ -56,6 +57,11 @@ def _base() -> str:
 def track(python: Path, film: Path, out: Path) -> None:
     """Look for a person in a film. Raises: NotThere: the tracker has failed."""
     _run([str(python), str(TRACK), str(film), str(out)], f"{film.name} cannot be tracked")
+
+
+def look_for_faces(python: Path, pictures: Path, out: Path) -> None:
+    """Look for a face in each picture. Raises: NotThere: the tracker has failed."""
+    _run([str(python), str(FACE_MARKS), str(pictures), str(out)], "faces cannot be tracked")
 
 
 def _run(command: list[str], failure: str) -> None:

@@ -19,7 +19,9 @@ from azee.cli.main import run
 HERE = Path(__file__).parent
 PICTURES = HERE / "pictures"
 WIDEST = 1500
-COLOURS = 200
+COLOURS = (200, 150, 100, 64)
+"""Of palettes, of which the first is taken whose file has no more than `MOST_BYTES`."""
+MOST_BYTES = 120_000
 STEP = re.compile(r"^```(?:azee file=(\S+)[^\n]*|sh)\n(.*?)^```$", re.M | re.S)
 SHOWN = re.compile(r"\]\(pictures/(\S+\.png)\)")
 
@@ -51,9 +53,12 @@ def _keep(drawn: Path, kept: Path) -> None:
     image = Image.open(drawn).convert("RGB")
     if image.width > WIDEST:
         image = image.resize((WIDEST, round(image.height * WIDEST / image.width)))
-    palette = image.quantize(COLOURS, kmeans=2)
-    few = image.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG)
-    few.save(kept, optimize=True)
+    for colours in COLOURS:
+        palette = image.quantize(colours, kmeans=2)
+        few = image.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG)
+        few.save(kept, optimize=True)
+        if kept.stat().st_size <= MOST_BYTES:
+            break
     print(f"{kept.name}: {kept.stat().st_size // 1000} kB")
 
 

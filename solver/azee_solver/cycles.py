@@ -7,7 +7,18 @@ from dataclasses import fields, is_dataclass
 from functools import lru_cache
 
 from azee_solver.constraint import Constraint, Transpath
-from azee_solver.geometry import Around, Circle, Moving, Path, Slide, Wave, Zigzag
+from azee_solver.geometry import (
+    Arc,
+    Around,
+    Circle,
+    Moving,
+    Path,
+    Slide,
+    Straight,
+    Through,
+    Wave,
+    Zigzag,
+)
 
 
 @lru_cache(maxsize=4096)
@@ -31,7 +42,7 @@ def _of(path: Path) -> tuple[float, ...]:
             return (corners / 2.0,)
         case Slide(path=inner):
             return _of(inner)
-        case _:
+        case Straight() | Arc() | Through():
             return ()
 
 

@@ -16,6 +16,7 @@ from azee.lang.values import (
     PointValue,
     ScoreValue,
     TextValue,
+    VectorValue,
 )
 from azee.score.score import Group, Key, leaves
 from azee_grammar.library import shipped_names
@@ -50,6 +51,9 @@ ARGUMENTS = {
     "letter": "rule(concat('letter-A), 'of = 'asl)",
     "at": "^Mssp",
     "param$0": "s",
+    "fingers": "^up",
+    "palm": "^fwd",
+    "point": "^Rssp",
 }
 """What stands for an argument that must be given, by its name; a score for any other."""
 OF_MULTIPLES = {"elt": ".personne"}
@@ -87,9 +91,15 @@ def test_a_rule_evaluates_and_says_what_it_is(rule: Rule) -> None:
     assert rule.entry("status") in STATUSES
     text = _application(rule)
     found = value(text, _uses(rule))
-    assert isinstance(
-        found, ScoreValue | ConstraintsValue | ListValue | PointValue | TextValue | BooleanValue
-    )
+    if rule.name in ("in-space", "from"):
+        assert isinstance(found, PointValue)
+    elif rule.name in ("way", "axis"):
+        assert isinstance(found, VectorValue)
+    else:
+        assert isinstance(
+            found,
+            ScoreValue | ConstraintsValue | ListValue | PointValue | TextValue | BooleanValue,
+        )
     if isinstance(found, ScoreValue):
         assert problems(_uses(rule) + text) == []
         assert program(_uses(rule) + text).check(Side.LEFT) == ()

@@ -240,10 +240,9 @@ def test_saved_changed_and_deleted_libraries_count_at_once(tmp_path: Path) -> No
         assert await one.open("other.azee", "use 'lib\n:gone\n") == []
         (tmp_path / "lib" / "a.azee").unlink()
         watched("lib/a.azee", types.FileChangeType.Deleted)
-        await one.wait_for_codes("other.azee", ["unknown-rule"])
+        await one.wait_for_codes("other.azee", ["library-not-found", "unknown-rule"])
         (tmp_path / "lib").rmdir()
         watched("lib", types.FileChangeType.Deleted)
-        await one.wait_for_codes("other.azee", ["library-not-found", "unknown-rule"])
         found = await client.workspace_symbol_async(types.WorkspaceSymbolParams("gone"))
         assert found == []
         assert one.complaints == []

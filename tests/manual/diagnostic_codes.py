@@ -14,7 +14,10 @@ import azee_solver
 PACKAGES = (azee, azee_grammar, azee_solver, azee_rig)
 """As they are imported: from the tree, or from an installed wheel."""
 
-MAKERS = {"BindingError", "BodyError", "Diagnostic", "LayoutError", "fault", "_problem"}
+MAKERS = {
+    *("BindingError", "BodyError", "Diagnostic", "LayoutError", "SignsError"),
+    *("fault", "_problem"),
+}
 """Whoever is called by one of these names takes the code as its first argument."""
 
 

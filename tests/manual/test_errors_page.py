@@ -5,15 +5,18 @@ from __future__ import annotations
 import ast
 import dataclasses
 import io
+import json
 import re
 import shlex
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
 from diagnostic_codes import UnknownCodeError, codes, codes_in
 from pages import Block, blocks, page, pairs
+from sqlalchemy import update
 
 from azee.cli.main import run
 from azee.clip.archive import write_clip
@@ -21,6 +24,10 @@ from azee.clip.clip import Clip
 from azee.compilation import lacks
 from azee.lang.program import load
 from azee.lang.unshowable import beyond_frames
+from azee.signs.database import SignDatabase
+from azee.signs.sign import Identity, Motion, SignFacts, Timing
+from azee.signs.skeleton import StoredSkeleton
+from azee.signs.tables import MOTION
 from azee_grammar.diagnostic import Diagnostic
 from azee_grammar.render import render
 from azee_grammar.source import Source
@@ -43,6 +50,25 @@ def _sign() -> bytes:
     return file.getvalue()
 
 
+COFFEE = {"gloss": "COFFEE", "file": "coffee.tsv", "digest": ""}
+
+
+def _signs() -> bytes:
+    """A database of two signs; the movement of the second is damaged."""
+    rig, clip = load_rig("signer"), _sign()
+    known = Timing.of(2.0, 61, 30.0)
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "signs.db"
+        database, _ = SignDatabase.create(str(path))
+        with database:
+            for name in ("TREE", "HOUSE"):
+                motion = Motion(clip, name.encode(), f"{name}.npz")
+                database.add(SignFacts(Identity(name), known), motion, StoredSkeleton.of(rig))
+            with database.store.writing() as connection:
+                connection.execute(update(MOTION).where(MOTION.c.sign == 2).values(clip=b"?"))
+        return path.read_bytes()
+
+
 FILES = {
     "north/tea.azee": b"def tea\n    :bien\n",
     "south/tea.azee": b"def tea\n    :mignon\n",
@@ -52,7 +78,16 @@ FILES = {
     "old.gltf": b'{"asset": {"version": "1.0"}}',
     "statue.gltf": b'{"asset": {"version": "2.0"}}',
     "kept/letter.txt": b"keep me",
+    "torn.sigml": b'<sigml><hns_sign gloss="TEA">',
+    "tea.tsv": "TEA\t\ue001\ue038\ue020\n".encode(),
+    "coffee.tsv": "COFFEE\t\ue001\ue020\ue038\n".encode(),
+    "own/own-coffee.azee": b"def own-coffee\n    :bien\n",
+    "own/lexicon.json": json.dumps(
+        {"language": "own", "source": "", "rules": {"own-coffee": COFFEE}}
+    ).encode(),
+    "broken/lexicon.json": b"{}",
     "sign.npz": _sign(),
+    "signs.db": _signs(),
 }
 """What the examples find beside them."""
 
@@ -117,11 +152,13 @@ def test_a_command_says_what_is_printed(
         _hide(missing, monkeypatch)
     program, *arguments = shlex.split(command.removeprefix("$ "))
     assert program == "azee"
-    assert run(arguments) == 1
+    code = run(arguments)
     captured = capsys.readouterr()
     told = (captured.out + captured.err).replace("\\", "/")
     assert told.rstrip("\n") == said.rstrip("\n")
-    assert f"error[{_entry(block)}]" in said
+    entry = _entry(block)
+    assert f"error[{entry}]" in said or f"warning[{entry}]" in said
+    assert (code == 1) == ("error[" in said)
 
 
 def _hide(package: str, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -20,10 +20,10 @@ MODULES = {
     for relative, path in SOURCES.items()
 }
 OURS = {"azee", "azee_grammar", "azee_rig", "azee_solver"}
-DECLARATIONS = {"azee_solver.geometry", "azee_solver.constraint", "azee_solver.notation"}
+DECLARATIONS = {f"azee_solver.{name}" for name in ("geometry", "constraint", "notation", "cycles")}
 
 MAY_IMPORT: dict[str, set[str]] = {
-    "azee_grammar": {"lark"},
+    "azee_grammar": {"lark", "platformdirs"},
     "azee_rig": {"numpy"},
     "azee_rig.machine_code": {"numpy", "llvmlite"},
     "azee_rig.pointers": {"numba", "llvmlite"},
@@ -33,6 +33,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee_solver.geometry": set(),
     "azee_solver.constraint": {"azee_solver.geometry"},
     "azee_solver.notation": {"azee_solver.constraint", "azee_solver.geometry"},
+    "azee_solver.cycles": {"azee_solver.constraint", "azee_solver.geometry"},
     "azee_solver": {"azee_rig", "numpy", "nlopt"},
     "azee_solver.kernels": {"azee_rig", "azee_solver.block", "numpy", "numba"},
     "azee_solver.posing": {"azee_rig", "azee_solver", "numba"},
@@ -42,6 +43,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.corpus": {"azee.lang", "azee.export.files", "azee.wording", "matplotlib", "pympi"},
     "azee.assist": {"azee_grammar", "azee.lang", "azee.score"} | DECLARATIONS,
     "azee.clip": {"azee_rig", "numpy"},
+    "azee.signs": {"azee.clip", "azee_rig", "sqlalchemy", "alembic"},
     "azee.motion.tasks": {"azee.clip", "azee.score", "azee_solver", "azee_rig", "numpy"},
     "azee.motion.curves": {
         *("azee.clip", "azee.score", "azee.motion.tasks"),
@@ -107,10 +109,11 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee.lang", "azee.motion", "azee.quality", "azee.score", "azee.wording"),
         *("azee_grammar", "azee_rig", "azee_solver"),
     },
+    "azee.lexicon": {"azee.export.files", "azee_grammar", "lark", "lxml"},
     "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},
     "azee.notebook": {*OURS, "numpy", "PIL"},
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
-    "azee.cli": {*OURS, "click", "rich"},
+    "azee.cli": {*OURS, "click", "rich", "platformdirs", "sqlalchemy"},
     "azee.cli.study": {*OURS, "click", "uvicorn"},
     "azee": OURS,
 }

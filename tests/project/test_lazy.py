@@ -13,6 +13,7 @@ from azee_rig.machine_code import KEEPS
 TEXT = "key 1\n    cstr\n        place @I_TIP(s) @CH\n        orient 'nrm !palm(s) 'along ^up\n"
 HEAVY = (
     "PIL",
+    "alembic",
     "lark",
     "matplotlib",
     "pympi",
@@ -24,6 +25,7 @@ HEAVY = (
     "scipy",
     "sklearn",
     "starlette",
+    "sqlalchemy",
     "trimesh",
 )
 SCRIPT = """
@@ -42,6 +44,9 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("repl",): {"lark"},
     ("rig", "--help"): set(),
     ("corpus", "stats", "--help"): set(),
+    ("db", "add", "--help"): set(),
+    ("db", "create", "--quiet", "--db", "signs.db"): {"alembic", "sqlalchemy"},
+    ("db", "list", "--db", "stored.db"): {"sqlalchemy"},
     ("elan", "compare", "--help"): set(),
     ("spell", "--help"): set(),
     ("study", "--help"): set(),
@@ -65,6 +70,8 @@ def test_a_command_loads_no_more_than_it_needs(
     arguments: tuple[str, ...], python: Python, tmp_path: Path
 ) -> None:
     (tmp_path / "text.azee").write_text(TEXT, encoding="utf-8")
+    if "stored.db" in arguments:
+        python("-m", "azee", "db", "create", "--db", "stored.db", expect=0)
     if "nlopt" in LOADS[arguments]:  # kernels are compiled once
         python("-m", "azee", *arguments, expect=0)
     done = python("-c", SCRIPT, " ".join(HEAVY), *arguments, expect=0)

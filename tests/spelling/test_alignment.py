@@ -6,12 +6,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import check_grad
 
 from azee.clip.clip import Clip, Label
 from azee.spelling.timing.alignment import aligned
 from azee.spelling.timing.decomposition import convex_weights, distinct, pseudo_inverse_weights
 from azee.spelling.timing.drawn import drawn_words
-from azee.spelling.timing.latent_space import latent_distances, latent_points
+from azee.spelling.timing.latent_space import (
+    latent_distances,
+    latent_points,
+    negative_log_posterior,
+)
 from azee.spelling.timing.letter_poses import asl_poses, chebyshev, manhattan, rmsd
 from azee.spelling.timing.moving_hand import spelled_angles
 from azee.spelling.timing.schedule import LetterTime, schedule
@@ -119,6 +124,18 @@ def test_latent_distances_are_0_of_a_pose_from_itself_and_1_at_most() -> None:
     assert apart.max() == 1
     points = latent_points(np.vstack([poses, poses[:1]]))
     assert np.linalg.norm(points[0] - points[-1]) < 0.05 * np.ptp(points)
+
+
+def test_the_latent_space_climbs_along_its_gradient() -> None:
+    rng = np.random.default_rng(0)
+    poses = rng.normal(size=(6, 4))
+    gram = poses @ poses.T
+
+    def at(x: np.ndarray) -> tuple[float, np.ndarray]:
+        return negative_log_posterior(x, gram, outputs=4, dimensions=2)
+
+    x = rng.normal(size=14)
+    assert check_grad(lambda x: at(x)[0], lambda x: at(x)[1], x) < 1e-5
 
 
 TIMES = st.floats(0.05, 1.0)

@@ -11,7 +11,13 @@ from sklearn.preprocessing import OrdinalEncoder
 
 from azee.spelling.timing.drawn import drawn_words
 from azee.spelling.timing.features import CHOSEN, FEATURES, GENERAL, features, table
-from azee.spelling.timing.fitting import fit_naive_bayes, fit_ridge, letters
+from azee.spelling.timing.fitting import (
+    fit_naive_bayes,
+    fit_practice,
+    fit_ridge,
+    letters,
+    published_practice,
+)
 from azee.spelling.timing.published import FRAME_S
 from azee.spelling.timing.validation import SCHEMES, Scheme, constant_errors, validated
 
@@ -81,6 +87,27 @@ def test_a_word_that_is_held_out_cannot_be_learnt(scheme: Scheme) -> None:
     found = validated([*WORDS, odd], "naive-bayes", scheme)
     error_s = np.abs(found.predicted_s - found.true_s)[-5:].mean()
     assert (error_s < 0.01) == (scheme == "resubstitution")
+
+
+def test_words_that_are_held_out_are_foretold_without_the_word() -> None:
+    with_word = validated(WORDS, "ridge", "words held out", CHOSEN)
+    without = validated(WORDS, "ridge", "words held out", GENERAL)
+    np.testing.assert_array_equal(with_word.predicted_s, without.predicted_s)
+
+
+def test_later_spellings_give_the_exponent_of_practice() -> None:
+    word = WORDS[0]
+    spellings = [
+        type(word)(
+            word.word,
+            tuple(n**-0.3 * t for t in word.holds_s),
+            tuple(n**-0.3 * t for t in word.transitions_s),
+            n,
+        )
+        for n in (1, 2, 7)
+    ]
+    assert fit_practice([*WORDS[1:], *spellings]) == pytest.approx(0.3)
+    assert fit_practice(WORDS) == pytest.approx(published_practice())
 
 
 def test_the_default_model_misses_by_five_times_less_than_constants() -> None:

@@ -30,17 +30,21 @@ def latent_points(poses: Array, dimensions: int = DIMENSIONS) -> Array:
     gram, count = scaled @ scaled.T, len(poses)
 
     def loss(x: Array) -> tuple[float, Array]:
-        return _negative_log_posterior(x, gram, scaled.shape[1], count, dimensions)
+        return negative_log_posterior(x, gram, scaled.shape[1], dimensions)
 
     first = np.r_[start.ravel(), 0.0, np.log(0.1)]
     found = minimize(loss, first, jac=True, method="L-BFGS-B", options={"maxiter": 500})
     return np.asarray(found.x[:-2].reshape(count, dimensions))
 
 
-def _negative_log_posterior(
-    x: Array, gram: Array, outputs: int, count: int, dimensions: int
+def negative_log_posterior(
+    x: Array, gram: Array, outputs: int, dimensions: int
 ) -> tuple[float, Array]:
-    """Value and gradient in the points, log s and log σ."""
+    """Return what is minimised, and its gradient.
+
+    Args: x: (N · dimensions + 2,), the points, log s and log σ. gram: Y Yᵀ, (N, N). outputs: D.
+    """
+    count = len(gram)
     points, log_s, log_noise = x[:-2].reshape(count, dimensions), x[-2], x[-1]
     apart = points[:, None, :] - points[None, :, :]
     signal = np.exp(2 * log_s - 0.5 * (apart**2).sum(axis=-1))

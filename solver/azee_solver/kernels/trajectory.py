@@ -156,10 +156,10 @@ def _couple(hessian, coupled, component):
 @njit(**INNER)
 def _is_stuck(stuck, v):
     """Whether a coordinate may move in no frame."""
+    frames = 0
     for t in range(stuck.shape[0]):
-        if stuck[t, v] == 0:
-            return False
-    return True
+        frames += stuck[t, v]
+    return frames == stuck.shape[0]
 
 
 @njit(**INNER)

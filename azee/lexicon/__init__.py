@@ -1,0 +1,1 @@
+"""Lexicons of other notations as AZee rules: gestural SiGML and HamNoSys."""

@@ -1,0 +1,261 @@
+"""A notated handshape as posture rules of the core."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from azee.lexicon.hand_sites import FINGER
+from azee.lexicon.model import BENDS, Form, HandShape, bend_of
+from azee.lexicon.numbers import number
+
+_BETWEEN_THUMBS = {
+    frozenset(("beside", "out")): ".thumb('spread = .45)",
+    frozenset(("beside", "across")): ".thumb('opposed = .35, 'bend = .2)",
+    frozenset(("beside", "opposed")): ".thumb('opposed = .4, 'spread = .2)",
+    frozenset(("out", "across")): ".thumb('opposed = .3, 'spread = .3, 'bend = .15)",
+    frozenset(("out", "opposed")): ".thumb('opposed = .4, 'spread = .6)",
+    frozenset(("across", "opposed")): ".thumb('opposed = .8, 'spread = .15, 'bend = .2)",
+}
+"""Thumbs halfway between two positions; the weights are ours."""
+
+Told = Callable[[str, str], None]
+"""Notes an approximation: its kind, and what it is."""
+
+_FINGERS = {
+    "fist": "",
+    "flat": "2345",
+    "finger2": "2",
+    "finger23": "23",
+    "finger23spread": "23",
+    "finger2345": "2345",
+    "pinch12": "2",
+    "pinchall": "2345",
+    "pinch12open": "2",
+    "cee12": "2",
+    "ceeall": "2345",
+    "cee12open": "2",
+}
+"""The fingers that a form is about."""
+_NAMES = dict(zip("2345", ("index", "middle", "ring", "little"), strict=True))
+_CLOSED = (0.955, 0.95)
+_PINCHED = {"pinch12": (0.68, 0.62), "pinch12open": (0.68, 0.62), "pinchall": (0.92, 0.48)}
+_BEND_RULES = {bend_of(name): f":finger-{name}" for name in BENDS if name != "halfbent"}
+_THUMBS: Mapping[str | None, Mapping[str, str]] = {
+    "out": {},
+    "opposed": {},
+    "across": {
+        "fist": ".thumb-over-index",
+        "finger2": ".thumb-over",
+        "finger23": ".thumb-over-ring",
+        "finger23spread": ".thumb-over-ring",
+    },
+    None: {
+        "flat": ".thumb-beside",
+        "finger2345": ".thumb-across",
+        "finger2": ".thumb-over",
+        "fist": ".thumb-on-index",
+    },
+}
+_USUAL_THUMB = {
+    "out": ".thumb-out",
+    "opposed": ".thumb-opposed",
+    "across": ".thumb-across",
+    None: ".thumb-over-ring",
+}
+
+
+def hand_text(shape: HandShape, hand: str, told: Told) -> list[str]:
+    """Return a handshape as lines of a constraint set.
+
+    Shapes that the core has as a rule are written by their name; others finger by finger. What
+    neither can say is told.
+    """
+    _tell_losses(shape, told)
+    if _is_plain(shape):
+        return [_rule(shape, hand)]
+    return _finger_by_finger(shape, hand, told)
+
+
+def _is_plain(shape: HandShape) -> bool:
+    bends = [digit for digit, _ in shape.bends if digit != "1"]
+    form, second = shape.form, shape.second
+    if shape.fingers or bends or shape.exempt or shape.crossing:
+        return False
+    if second is not None and (second.base != form.base or form.base == "fist"):
+        return False
+    return not (_is_ring(form.base) and (second or form.bend or form.thumb or form.opening))
+
+
+def _is_ring(base: str) -> bool:
+    """Whether the thumb and the fingers form a ring, closed or open."""
+    return base.startswith(("pinch", "cee"))
+
+
+def _rule(shape: HandShape, hand: str) -> str:
+    form = shape.form
+    arguments = [] if hand == "s" else [f"'side = {hand}"]
+    bend = bend_of(form.bend)
+    if shape.second is not None:
+        bend = _between(bend, bend_of(shape.second.bend))
+    if bend != BENDS["straight"] and form.base != "fist":
+        arguments.append(f"'bend = {_bend(bend)}")
+    if _is_between_thumbs(shape):
+        arguments.append(f"'thumb = {_thumb_between(shape)}")
+    elif form.thumb:
+        arguments.append(f"'thumb = {_thumb(form)}")
+    name = {"flat": "flathand"}.get(form.base, form.base)
+    return f":#ham{name}" + (f"({', '.join(arguments)})" if arguments else "")
+
+
+def _is_between_thumbs(shape: HandShape) -> bool:
+    return shape.second is not None and _thumb_at(shape.form) != _thumb_at(shape.second)
+
+
+def _thumb_at(form: Form) -> str:
+    """Return where a thumb is: as said, or where the form has it."""
+    if form.thumb:
+        return form.thumb
+    if _is_ring(form.base):
+        return "opposed"
+    return "beside" if form.base in ("flat", "fist") else "across"
+
+
+def _thumb_between(shape: HandShape) -> str:
+    """Return a thumb halfway between those of two forms."""
+    assert shape.second is not None
+    return _BETWEEN_THUMBS[frozenset((_thumb_at(shape.form), _thumb_at(shape.second)))]
+
+
+def _thumb(form: Form) -> str:
+    return _THUMBS[form.thumb].get(form.base, _USUAL_THUMB[form.thumb])
+
+
+def _finger_by_finger(shape: HandShape, hand: str, told: Told) -> list[str]:
+    form = shape.form
+    bends = _bends(form, shape.fingers)
+    spread = _spread(form)
+    if shape.second is not None:
+        others = _bends(shape.second, "")
+        bends = {d: _between(bends[d], others[d]) for d in bends}
+        spread = (spread + _spread(shape.second)) / 2
+    for digit in shape.exempt:
+        if digit in bends:
+            bends[digit] = BENDS["straight"]
+    for digit, bend in shape.bends:
+        if digit in bends:
+            bends[digit] = bend_of(bend)
+    touching = _touching(shape, told)
+    if touching is not None:
+        bends[touching] = _PINCHED["pinch12"]
+        return _touching_hand(shape, hand, bends, touching, spread)
+    arguments = [] if hand == "s" else [f"'side = {hand}"]
+    arguments += [f"'{_NAMES[d]} = {_bend(bend)}" for d, bend in bends.items() if bend != _CLOSED]
+    if spread:
+        arguments.append(f"'spread = {number(spread)}")
+    arguments.append(f"'thumb = {_any_thumb(shape, bends)}")
+    crossed = [f"morph 'fingers_crossed {hand} 1"] if _is_crossed(shape) else []
+    return [f":#hand-of({', '.join(arguments)})", *crossed]
+
+
+def _any_thumb(shape: HandShape, bends: Mapping[str, tuple[float, float]]) -> str:
+    if _is_between_thumbs(shape):
+        return _thumb_between(shape)
+    base = shape.form.base
+    if not _is_ring(base):
+        return _thumb(shape.form)
+    pinched = base in _PINCHED and bends["2"] == _PINCHED[base]
+    return ".thumb-pinch" if pinched else ".thumb-opposed"
+
+
+def _touching(shape: HandShape, told: Told) -> str | None:
+    """Return the finger that the thumb touches, where that is no pinch of the index."""
+    crossing = shape.crossing
+    if crossing is not None:
+        pair = {crossing.digit, crossing.other}
+        if "1" in pair:
+            return max(pair)
+        if not _is_crossed(shape):
+            told("crossing", "two fingers that touch are not written")
+        return None
+    if (
+        shape.form.base not in _PINCHED
+        or _is_between_thumbs(shape)
+        or "2" in (shape.fingers or "2")
+    ):
+        return None
+    return next((d for d in shape.fingers if d in _NAMES), None)
+
+
+def _is_crossed(shape: HandShape) -> bool:
+    crossing = shape.crossing
+    return crossing is not None and {crossing.digit, crossing.other} == {"2", "3"}
+
+
+def _touching_hand(
+    shape: HandShape,
+    hand: str,
+    bends: Mapping[str, tuple[float, float]],
+    touching: str,
+    spread: float,
+) -> list[str]:
+    """Return a hand whose thumb touches a finger, which yields so far that they meet."""
+    items = []
+    for digit, bend in bends.items():
+        soft = " 'soft" if digit == touching else ""
+        for word, weight in zip(("bend", "hook"), bend, strict=True):
+            items.append(f"'{_NAMES[digit]}_{word} {hand} {number(weight)}{soft}")
+    items.append(f"'fingers_spread {hand} {number(spread)}")
+    part = shape.crossing.part if shape.crossing else "tip"
+    site = {"nail": "NA({0})", "midjoint": "KN({0}, 2)", "base": "KN({0}, 1)"}.get(part, "TIP({0})")
+    return [
+        f"morph {' '.join(items)}",
+        f"place @T_TIP({hand}) @{FINGER[touching]}_{site.format(hand)} 'contact",
+    ]
+
+
+def _bends(form: Form, fingers: str) -> dict[str, tuple[float, float]]:
+    """Return how far each finger is bent and hooked."""
+    selected = set(fingers or _FINGERS[form.base])
+    bends = {}
+    for digit in "2345":
+        if digit not in selected:
+            bends[digit] = BENDS["straight"] if form.base.endswith("open") else _CLOSED
+        elif form.base in _PINCHED:
+            bends[digit] = _with(_PINCHED[form.base], form.bend)
+        elif form.base.startswith("cee"):
+            bends[digit] = _opened(bend_of(form.bend or "round"), form.opening)
+        else:
+            bends[digit] = bend_of(form.bend)
+    return bends
+
+
+def _with(pinched: tuple[float, float], bend: str | None) -> tuple[float, float]:
+    """Return the fingers of a pinch that is bent in another way than usual."""
+    return pinched if bend is None else _between(pinched, bend_of(bend))
+
+
+def _opened(bend: tuple[float, float], opening: str | None) -> tuple[float, float]:
+    """Return the fingers of a cee that is wider or narrower than usual."""
+    factor = {"slack": 0.7, "tight": 1.25}.get(opening or "", 1.0)
+    return round(bend[0] * factor, 3), round(bend[1] * factor, 3)
+
+
+def _between(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
+    return round((a[0] + b[0]) / 2, 3), round((a[1] + b[1]) / 2, 3)
+
+
+def _spread(form: Form) -> float:
+    if "spread" in form.base or form.base == "finger2345":
+        return 1.0
+    return 0.8 if form.base.endswith("open") else 0.0
+
+
+def _bend(bend: tuple[float, float]) -> str:
+    return _BEND_RULES.get(bend) or f"list({number(bend[0])}, {number(bend[1])})"
+
+
+def _tell_losses(shape: HandShape, told: Told) -> None:
+    if shape.thumb_enclosed:
+        told("thumb-enclosed", "a thumb within the fist is over the index")
+    if any(digit == "1" for digit, _ in shape.bends):
+        told("thumb-bend", "the bend of a single thumb is not written")

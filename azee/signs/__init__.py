@@ -1,0 +1,1 @@
+"""Signs in a database: recorded, compiled or spelled movements with names, tags and sources."""

@@ -1,0 +1,54 @@
+"""An arm that hangs yields when the trunk leans to its side, and only then."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from azee.compilation import perform
+from azee.lang.program import evaluate_expression
+from azee.motion.keys.rest import rest_posture
+from azee.motion.overlay.hanging_arms import yielding_to_leans
+from azee_rig.load import load_rig, shipped_rigs
+from azee_rig.rig import Rig
+from azee_solver.geometry import Side
+
+MILLIMETRE = 1e-3
+
+
+@pytest.mark.parametrize("side", ["L", "R"])
+def test_the_arm_towards_the_lean_goes_out_as_far_as_the_trunk_leans(
+    side: str, signer: Rig
+) -> None:
+    rest = rest_posture(signer, "hanging", Side.RIGHT)
+    index = signer.coordinates.index
+    lean = index["back_1.lateral"]
+    q = np.tile(rest, (2, 1))
+    q[1, lean] += math.radians(6.0 if side == "L" else -6.0)
+    found = np.degrees(yielding_to_leans(signer, q, rest))
+    np.testing.assert_allclose(found[0], 0.0, atol=1e-9)
+    other = "R" if side == "L" else "L"
+    assert 5.0 < found[1, index[f"arm_{side}.abduction"]] < 7.0
+    assert abs(found[1, index[f"arm_{other}.abduction"]]) < 0.3
+    found[1, [index[f"arm_{s}.abduction"] for s in "LR"]] = 0.0
+    assert not found.any()
+
+
+def test_a_raised_arm_stays_where_it_is(signer: Rig) -> None:
+    rest = rest_posture(signer, "hanging", Side.RIGHT)
+    q = rest[None].copy()
+    q[0, signer.coordinates.index["back_1.lateral"]] += math.radians(6.0)
+    q[0, signer.coordinates.index["arm_L.flexion"]] += math.radians(45.0)
+    found = np.degrees(yielding_to_leans(signer, q, rest))
+    assert abs(found[0, signer.coordinates.index["arm_L.abduction"]]) < 0.01
+
+
+@pytest.mark.parametrize("body", shipped_rigs())
+@pytest.mark.parametrize("text", [":about-ref(:hier, ^Lssp)", ":about-ref(:Irak, ^Rssp)"])
+def test_no_hand_enters_the_hip_towards_which_the_trunk_leans(text: str, body: str) -> None:
+    report = perform(evaluate_expression(text).score, load_rig(body)).report
+    assert [c.subject for c in report.constraints if c.missed] == []
+    deep = [p for p in report.clip_penetration if not p.intended and p.depth_m > 3 * MILLIMETRE]
+    assert [p for p in deep if p.on == "skin"] == []

@@ -15,7 +15,7 @@ from benchmarks.ik.elsewhere import NotThere
 
 OUT = Path(__file__).parents[2] / "out"
 FOLDER = OUT / "env-mediapipe"
-PACKAGES = ("mediapipe==0.10.14", "av")
+PACKAGES = ("mediapipe==0.10.14", "av", "pillow", "scikit-learn")
 VERSIONS = ("3.11", "3.12", "3.10", "3.9")
 TRACK = Path(__file__).with_name("track.py")
 FACE_MARKS = Path(__file__).with_name("face_marks.py")

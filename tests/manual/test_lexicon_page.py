@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from pathlib import Path
 
 from pages import ROOT, blocks
 
@@ -18,7 +19,7 @@ PAGE = (ROOT / "docs" / "lexicon.md").read_text(encoding="utf-8")
 def _told() -> set[str]:
     """Every kind of approximation that the writer tells, from its source."""
     found = set()
-    for path in sorted((ROOT / "azee" / "lexicon").glob("*.py")):
+    for path in sorted(Path(azee.lexicon.__path__[0]).glob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if not isinstance(node, ast.Call) or not node.args:
                 continue

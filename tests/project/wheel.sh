@@ -16,7 +16,7 @@ wheel=$(ls "$place"/*.whl)
 
 # What the tests read besides the packages; node_modules is lent, not copied.
 mkdir "$place/checkout"
-cp -r pyproject.toml docs editors examples benchmarks "$place/checkout"
+cp -r pyproject.toml docs editors examples benchmarks lexicons "$place/checkout"
 tar --exclude=node_modules -cf - tests | tar -xf - -C "$place/checkout"
 if [ -d tests/node/node_modules ]; then
   ln -s "$root/tests/node/node_modules" "$place/checkout/tests/node/node_modules"
@@ -24,4 +24,4 @@ fi
 
 cd "$place/checkout"
 "$bin/python" -c "import azee, sys; sys.exit('site-packages' not in azee.__file__)"
-"$bin/python" -m pytest -q -m "not slow" -o pythonpath= --ignore tests/project --ignore tests/mutants
+"$bin/python" -m pytest -q -n auto -m "not slow" -o pythonpath= --ignore tests/project --ignore tests/mutants

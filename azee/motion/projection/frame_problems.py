@@ -43,13 +43,9 @@ TOUCH_S = 0.15
 CARRIER_SHARE = 50.0
 """How many times more trunk and head cost than in a posture: keys have chosen where they are, and
 a chin does not come to meet a finger."""
-TRUNK_S, LEAN_RAD = 0.4, math.radians(4.0)
-"""The trunk moves for a task that names a part of it and while it leans for the sake of an arm, and
-so long before and after. Else it stays as the reference has it, and arms make up for its sway: the
-fewer coordinates are coupled, the less a step costs."""
 SWAY_M = 0.0015
 """Added to the margin that arms and hands keep from the trunk."""
-ACCENT_SHARE = 0.4
+ACCENT_SHARE = 0.6
 """Of its tolerance that an accent may be off at the cost of 1."""
 COMFORT = 0.1
 """Share of the joint-limit cost: it leads steps along limits instead of against them."""
@@ -85,7 +81,6 @@ class FrameProblems:
         keep[accented] = (ACCENT_SHARE * self.options.tolerance.angle_rad) ** -2
         fixed = np.zeros(keep.shape, dtype=np.bool_)
         target = np.clip(reference, coordinates.lower, coordinates.upper)
-        trunk_moves = np.zeros(len(times), dtype=np.bool_)
         of_frame = np.empty(len(times), dtype=np.int64)
         programs: list[Program] = []
         moving: list[_Moving] = []
@@ -101,13 +96,8 @@ class FrameProblems:
                 target[of_shape] = np.clip(
                     near, coordinates.lower[members], coordinates.upper[members]
                 )
-            trunk_moves[rows] = any(task.limb == TRUNK for task in now.tasks)
             moving += self._paths(problem, rows, times)
             moving += self._moving_targets(problem, rows, times, reference)
-        trunk = np.flatnonzero([limb_of_coordinate(n) == TRUNK for n in coordinates.names])
-        turned = np.abs(reference[:, trunk] - coordinates.idle[trunk]).max(axis=1)
-        staying = ~_lasting(trunk_moves | (turned > LEAN_RAD), math.ceil(TRUNK_S * fps))
-        fixed[np.ix_(staying, trunk)] = True
         smooth = free_keep * (SMOOTH_S * fps) ** (2 * ORDER)
         refilling = _Refilling(self.monitor.evaluator, len(times), moving)
         return Trajectory(
@@ -325,12 +315,6 @@ class _Problem:
     runs: Mapping[int, tuple[int, int]]
     presets: Mapping[int, float]
     program: Program
-
-
-def _lasting(there: Mask, frames: int) -> Mask:
-    """Return what is there in a frame (T,) or was or will be, so many frames apart at most."""
-    reach = np.ones(2 * frames + 1)
-    return np.asarray(np.convolve(there, reach)[frames : frames + len(there)] > 0.5)
 
 
 @lru_cache(maxsize=256)

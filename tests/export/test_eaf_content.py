@@ -14,11 +14,11 @@ from any_scores import SCORES
 from eaf_rules import check
 from hypothesis import given
 
-from azee.export.articulators import ARTICULATORS, articulator_of
 from azee.export.formats.eaf import write_eaf
 from azee.export.formats.eaf_content import content_tiers
 from azee.lang.program import load
 from azee.lang.values import ConstraintsValue
+from azee.score.articulators import ARTICULATORS, articulator_of
 from azee.score.score import Score
 from azee_grammar.source import Source
 

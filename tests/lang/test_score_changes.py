@@ -12,9 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from azee.lang.hands import arm_of
 from azee.lang.relocation import Relocation
 from azee.lang.resizing import Resizing
+from azee.score.articulators import arm_of
 from azee.score.score import Group, Key, Score, leaves
 from azee_grammar.diagnostic import AZeeError
 from azee_rig.rig import Rig

@@ -39,6 +39,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee_solver.posing": {"azee_rig", "azee_solver", "numba"},
     "azee_solver.surfaces": {"azee_rig", "azee_solver", "numba"},
     "azee.score": DECLARATIONS,
+    "azee.score.articulators": {"azee_grammar"} | DECLARATIONS,
     "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
     "azee.corpus": {"azee.lang", "azee.export.files", "azee.wording", "matplotlib", "pympi"},
     "azee.assist": {"azee_grammar", "azee.lang", "azee.score"} | DECLARATIONS,
@@ -92,7 +93,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.export": {"azee.score", "azee.motion.tasks", "azee_grammar", "azee_rig"} | DECLARATIONS,
     "azee.export.formats": {
         *("azee.export.files", "azee.export.score_layout", "azee.export.track_rows"),
-        *("azee.export.articulators", "azee.clip", "azee.score", "azee_rig", "numpy"),
+        *("azee.clip", "azee.score", "azee_rig", "numpy"),
         *DECLARATIONS,
     },
     "azee.export.pictures": {

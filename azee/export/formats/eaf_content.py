@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from azee.export.articulators import ARTICULATORS, CHANNEL, articulator_of
 from azee.export.formats.eaf_tiers import Note, Tier, in_lanes, note_of
+from azee.score.articulators import ARTICULATORS, CHANNEL, articulator_of
 from azee.score.interval import Interval
 from azee.score.score import Call, Group, Hold, Key, Score, is_mouthing, leaves
 from azee_solver.notation import constraint_text

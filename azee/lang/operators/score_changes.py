@@ -6,7 +6,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from azee.lang.hands import arm_of, kept, names_arm
+from azee.lang.hands import kept, names_arm
 from azee.lang.machine import HEAVY, Machine
 from azee.lang.native import Group, Native, Occurrence, Operand, Option
 from azee.lang.operators.scores import GAP_S, duration_of, exact_seconds
@@ -14,6 +14,7 @@ from azee.lang.reflection import MIRROR, NoMirrorImage
 from azee.lang.relocation import Relocation
 from azee.lang.resizing import Resizing
 from azee.lang.values import ConstraintsValue, Kind, ScoreValue, Value, VectorValue
+from azee.score.articulators import arm_of
 from azee.score.bounds import Placement
 from azee.score.error import LayoutError
 from azee.score.layout import Part, in_sequence, require_measurable, synchronised

@@ -18,7 +18,7 @@ from azee.motion.keys.transpath import (
     path_motions,
     sample_times,
 )
-from azee.motion.overlay.trill import oscillation
+from azee.motion.overlay.trill import add_trills, oscillation
 from azee.motion.tasks.contradiction import contradict
 from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.limbs import Limbs, channels_of_constraint
@@ -311,6 +311,27 @@ def test_a_trill_swings_from_the_start_of_its_block() -> None:
     edge = swing.angles(np.array([1.3, 1.35, 2.25, 2.3]))
     half = 0.05 * math.sin(2 * math.pi * 4.0 * 0.05)
     assert edge == pytest.approx([0.0, half, -half, 0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("room_rad", "short_rad"), [(0.2, 0.0), (0.09, 0.0), (0.06, 0.0), (0.02, 0.03)]
+)
+def test_a_trill_near_a_limit_keeps_its_size_and_moves_its_middle(
+    room_rad: float, short_rad: float
+) -> None:
+    trill = Trill(Bone("f_arm", S), Dir(Bone("f_arm", S)), 4.0, 0.1)
+    task = schedule(block("T", "0", "1", trill)).all[0]
+    coordinates = rig().coordinates
+    swing = oscillation(task, coordinates.idle, evaluator())
+    turned = int(np.abs(swing.direction).argmax())
+    q = np.tile(coordinates.idle, (161, 1))
+    q[:, turned] = coordinates.upper[turned] - room_rad * abs(swing.direction[turned])
+    times = np.arange(161) / 160
+    out, short = add_trills(q, times, [swing], coordinates)
+    middle = (times > 0.2) & (times < 0.8)
+    shown = np.ptp(out[middle, turned]) / abs(swing.direction[turned])
+    assert shown == pytest.approx(0.2 - short_rad, abs=1e-3)
+    assert short[task.rank] == pytest.approx(short_rad * abs(swing.direction[turned]), abs=1e-3)
 
 
 def test_a_trill_about_an_axis_of_no_length_turns_nothing() -> None:

@@ -1,7 +1,9 @@
 """Trills: small rapid oscillations, added to the movement that the other constraints fix.
 
 A bone turns about the trill's axis by the angle (a − b)/2 + (a + b)/2 · sin(2πft + φ), between a
-and −b, faded in and out inside the block and clamped to the limits. An axis means what it means to
+and −b, faded in and out inside the block. Where that would pass a limit of a joint, the middle of
+the oscillation moves away from the limit by up to `MOST_SHIFT_RAD`, and the rest is clamped. An
+axis means what it means to
 `rotate`: without bones or sites in it, it has the components x, dir and nrm of the parent bone's
 frame; otherwise it is a direction of the signer's frame. Where a bone's own joint cannot turn about
 the axis (a palm about its own length), the joint before it helps (the forearm turns).
@@ -30,6 +32,9 @@ from azee_solver.geometry import depends_on
 Array = NDArray[np.float64]
 
 FADE_S = 0.1
+MOST_SHIFT_RAD = math.radians(5.0)
+"""How far the middle may move, per coordinate, and never more than a quarter of the whole swing:
+that its ends differ in size is read, that both lie a little to one side is not."""
 OWN_JOINT_SHARE = 0.9
 """Share of the axis that a bone's own joint must be able to turn about, or the next one helps."""
 
@@ -46,19 +51,32 @@ class Oscillation:
     direction: Array
     turnable: float
 
+    @property
+    def half_rad(self) -> float:
+        """Half of the angle between its two ends."""
+        trill = self.task.constraint
+        assert isinstance(trill, Trill)
+        return 0.5 * (trill.amplitude_rad + trill.other_rad)
+
+    def envelope(self, times_s: Array) -> Array:
+        """Return the share of it that is faded in at times, (T,)."""
+        start, end = float(self.task.interval.start), float(self.task.interval.end)
+        fade = min(FADE_S, (end - start) / 2)
+        if fade <= 0:
+            return np.zeros(len(times_s))
+        return np.asarray(
+            minimum_jerk((times_s - start) / fade) * minimum_jerk((end - times_s) / fade)
+        )
+
     def angles(self, times_s: Array) -> Array:
         """Return the angle at times, (T,) radians."""
         trill = self.task.constraint
         assert isinstance(trill, Trill)
         start, end = float(self.task.interval.start), float(self.task.interval.end)
-        fade = min(FADE_S, (end - start) / 2)
-        if fade <= 0:
-            return np.zeros(len(times_s))
-        envelope = minimum_jerk((times_s - start) / fade) * minimum_jerk((end - times_s) / fade)
         passed = 2 * math.pi * trill.hz(end - start) * (times_s - start)
         middle = 0.5 * (trill.amplitude_rad - trill.other_rad)
-        half = 0.5 * (trill.amplitude_rad + trill.other_rad)
-        return np.asarray(envelope * (middle + half * np.sin(passed + trill.phase_rad)))
+        wave = middle + self.half_rad * np.sin(passed + trill.phase_rad)
+        return np.asarray(self.envelope(times_s) * wave)
 
 
 def oscillation(task: TimedTask, q: Array, evaluator: Evaluator) -> Oscillation:
@@ -108,6 +126,8 @@ def add_trills(
         ends = np.searchsorted(times_s, (float(interval.start), float(interval.end)))
         rows = slice(int(ends[0]), int(ends[1]))
         wanted = out[rows] + trill.angles(times_s[rows])[:, None] * trill.direction
+        shift = _shift(trill, wanted, coordinates)
+        wanted += trill.envelope(times_s[rows])[:, None] * shift
         out[rows] = np.clip(wanted, coordinates.lower, coordinates.upper)
         clamped = float(np.max(np.abs(wanted - out[rows]), initial=0.0))
         constraint = trill.task.constraint
@@ -116,6 +136,17 @@ def add_trills(
         not_turnable = (1.0 - trill.turnable) * widest
         shortfalls[trill.task.rank] = max(clamped, not_turnable)
     return out, shortfalls
+
+
+def _shift(trill: Oscillation, wanted: Array, coordinates: Coordinates) -> Array:
+    """Return how far the middle of a trill moves, (V,) radians, to keep it inside the limits.
+
+    Args: wanted: (T, V) coordinates of the body with the trill.
+    """
+    above = np.max(wanted - coordinates.upper, axis=0, initial=0.0)
+    below = np.max(coordinates.lower - wanted, axis=0, initial=0.0)
+    most = np.minimum(MOST_SHIFT_RAD, 0.5 * trill.half_rad * np.abs(trill.direction))
+    return np.asarray(np.clip(below - above, -most, most))
 
 
 def _joint_before(node: int, evaluator: Evaluator) -> int:

@@ -417,11 +417,11 @@ class Counting:
         )
 
 
-def test_postures_that_differ_in_times_only_are_solved_once() -> None:
+def test_postures_that_differ_only_in_where_they_stand_are_solved_once() -> None:
     counting, here, there = Counting(), np.zeros(3), np.ones(3)
     solver = RememberingSolver(counting)
     early = (Task(LEFT, ("A",), F(0), 0), Task(NEAR, ("B",), F(1), 1))
-    late = (Task(LEFT, ("A",), F(2), 0), Task(NEAR, ("B",), F(5), 1))
+    late = (Task(LEFT, ("C",), F(2), 4), Task(NEAR, ("C", "D"), F(5), 7))
     first = solver(early, start=here, reference=here)
     again = solver(late, start=here, reference=here)
     assert counting.asked == 1
@@ -440,11 +440,12 @@ def test_postures_that_differ_in_times_only_are_solved_once() -> None:
         return counting.asked
 
     assert asked_for((late[1], late[0])) == 2
-    assert asked_for((late[0], early[1])) == 3
-    assert asked_for((late[0], replace(late[1], phase=0.5))) == 4
-    assert asked_for(late, start=there) == 5
-    assert asked_for(late, reference=there) == 6
-    assert asked_for(late, fixed=frozenset((1,))) == 7
-    assert asked_for(late, search=Search.LOCAL) == 8
+    assert asked_for((late[0], replace(late[1], start_s=F(1)))) == 3
+    assert asked_for((late[0], replace(late[1], rank=2))) == 4
+    assert asked_for((late[0], replace(late[1], phase=0.5))) == 5
+    assert asked_for(late, start=there) == 6
+    assert asked_for(late, reference=there) == 7
+    assert asked_for(late, fixed=frozenset((1,))) == 8
     assert asked_for(late, search=Search.LOCAL) == 9
-    assert asked_for(late) == 9
+    assert asked_for(late, search=Search.LOCAL) == 10
+    assert asked_for(late) == 10

@@ -43,10 +43,14 @@ HOSTILE = {
     "an operator applied to itself": "let 'f azop('g, 0, apply(^g, ^g)) apply(^f, ^f)",
     "deep text": "blank " + "add(1, " * 300 + "1" + ")" * 300,
 }
+SLOW = {"a rule that doubles itself", "a large range of ranges"}
 ENDS = {"recursion-limit", "step-limit", "size-limit"}
 
 
-@pytest.mark.parametrize("name", HOSTILE)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in HOSTILE],
+)
 def test_a_hostile_text_ends_in_its_diagnostic(name: str) -> None:
     reported = problems(HOSTILE[name])
     assert reported
@@ -64,10 +68,17 @@ DEEP = {
     "info-about(blank(1), ": ")",
     "fixed(seq(list(": ")))",
 }
+SLOW_DEPTHS = {("info-about(blank(1), ", times) for times in (150, 199)}
 
 
-@pytest.mark.parametrize("opening", DEEP)
-@pytest.mark.parametrize("times", [40, 95, 150, 199, 400])
+@pytest.mark.parametrize(
+    ("opening", "times"),
+    [
+        pytest.param(opening, times, marks=[pytest.mark.slow] * ((opening, times) in SLOW_DEPTHS))
+        for times in (40, 95, 150, 199, 400)
+        for opening in DEEP
+    ],
+)
 def test_deep_texts_are_evaluated_or_refused(opening: str, times: int) -> None:
     reported = found(opening * times + "blank(1)" + DEEP[opening] * times)
     codes = {entry.partition(" ")[0] for entry in reported}

@@ -60,8 +60,8 @@ def transitions(k: Kinematics, spans: Sequence[TaskSpan]) -> tuple[Transition, .
     Where no movement is asked of the arm, between the first and the last time that anything is, a
     run of speeds above `STOPPED_M_S` is a transition; it begins and ends where the speed is `ONSET`
     of its largest. Of runs whose extents overlap, such as those of a slow movement that dips below
-    `STOPPED_M_S`, the fastest counts. For a minimum-jerk movement of T seconds these are .0864 T and .9136 T, from
-    30 τ²(1 − τ)² = .1 · 1.875.
+    `STOPPED_M_S`, the fastest counts. For a minimum-jerk movement of T seconds these are .0864 T
+    and .9136 T, from 30 τ²(1 − τ)² = .1 · 1.875.
     """
     found = [t for side in SIDES for t in _transitions(k, spans, side)]
     return tuple(sorted(found, key=lambda t: (t.start_s, t.side)))

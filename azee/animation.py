@@ -220,7 +220,7 @@ def animate(
             clip,
             rig,
             score,
-            task_spans(schedule.all, planned.monitor.early_ends),
+            task_spans(schedule.all, planned.monitor.early_ends, schedule.recorded),
             zero_s=lead_s,
             dominant=dominant,
         ),

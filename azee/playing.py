@@ -189,6 +189,7 @@ class Player:
         from azee.quality.measures import PenetrationSearch, peaks
         from azee.quality.motion_report import MotionReport, limit_excess
         from azee.quality.recordings import as_played
+        from azee.quality.task_spans import task_spans
         from azee_solver.evaluate import evaluator
         from azee_solver.geometry import Side
 
@@ -198,6 +199,7 @@ class Player:
         schedule = bind(flatten(score), rig, evaluator(rig, side).binding, limbs)
         excess, joint = limit_excess(clip.coordinates, rig.coordinates)
         names = rig.coordinates.names
+        spans = task_spans(schedule.all, {}, schedule.recorded)
         report = MotionReport(
             rig=rig.name,
             fps=self.fps,
@@ -214,7 +216,7 @@ class Player:
             measure_penetration=PenetrationSearch(
                 rig, side, schedule, clip.coordinates, clip.times
             ),
-            measure_likeness=partial(likeness, clip, rig, score, (), zero_s=lead_s),
+            measure_likeness=partial(likeness, clip, rig, score, spans, zero_s=lead_s),
             recordings=tuple(map(as_played, schedule.recorded)),
         )
         moments = tuple(t for body in whole.bodies_s for t in (body[0], sum(body) / 2, body[1]))

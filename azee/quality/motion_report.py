@@ -106,7 +106,8 @@ class MotionReport:
     blocks: their times, and until when their constraints hold. peaks: largest speed, acceleration
     and jerk of the coordinates that move. measure_penetration: measures it in every frame.
     measure_likeness: takes the figures of likeness. stretched: what takes longer than the score
-    says. extra_s: by how much all does. recordings: signs that are played. Other times are those of the score as performed.
+    says. extra_s: by how much all does. recordings: signs that are played. Other times are those of
+    the score as performed.
     """
 
     rig: str

@@ -42,7 +42,8 @@ def tracks(
     Blocks that move the same hand or arm both have it in their track. Trunk and head, which carry
     others, are in the track of one block only: the one that names them, else the first to begin of
     those that move them. Accents have keys where they begin and end. Faces have no coordinates and
-    no track; trills have one without keys. Recordings have keys where what they mean begins and ends.
+    no track; trills have one without keys. Recordings have keys where their bodies
+    begin and end.
     """
     if selection.flat:
         keys = tuple(sorted({float(p.time) for p in postures}))

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from PIL import Image
+from sqlalchemy import update
 
 from azee.cli.main import run
 from azee.clip.archive import read_clip
@@ -18,6 +19,7 @@ from azee.formats import SUFFIXES
 from azee.signs import recordings
 from azee.signs.database import SignDatabase
 from azee.signs.recordings import SignRecordings
+from azee.signs.tables import MOTION
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver import kinematics
@@ -174,3 +176,29 @@ def test_a_text_becomes_a_sign_and_comes_back_as_a_recording(db: str, signer: Ri
         there = one.coordinates[int(np.abs(one.times - first - since).argmin()), arm]
         back = other.coordinates[int(np.abs(other.times - start - since).argmin()), arm]
         assert np.degrees(np.abs(there - back)).max() < 2.5  # frames are up to half a step apart
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (["check", "-e", "recorded 'a", "--db", "none.db"], "error[sign-database]: `none.db`"),
+        (["check", "-e", "recorded 'x"], "error[unknown-sign]: `signs.db` has no sign `x`"),
+        (["compile", "-e", "recorded 'b"], "error[damaged-sign]: the movement of `b` is damaged"),
+        (["play", "b"], "error[damaged-sign]: the movement of `b` is damaged"),
+        (["play", "a", "--db", "none.db"], "error[sign-database]: `none.db`"),
+        (["db", "record", "a", "-e", ":bien :bien"], "error[too-many-arguments]"),
+        (["rig", "calibration", "none.bvh"], "error[cannot-read]: there is no file `none.bvh`"),
+        (["score", "-e", ":bien", "--shortcuts", "none.txt"], "error[cannot-read]"),
+    ],
+    ids=lambda x: x if isinstance(x, str) else " ".join(x[:2]),
+)
+def test_bad_input_gives_one_message(
+    command: list[str], said: str, db: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with SignDatabase.open(db) as signs, signs.store.writing() as connection:
+        number = signs.one("b").number
+        connection.execute(update(MOTION).where(MOTION.c.sign == number).values(clip=b"?"))
+    assert run(command) == 1
+    told = capsys.readouterr().err
+    assert said in told
+    assert told.count("error[") == 1

@@ -165,8 +165,10 @@ def test_a_text_becomes_a_sign_and_comes_back_as_a_recording(db: str, signer: Ri
         assert sign.facts.kind == "azee"
         assert sign.facts.provenance["expression"] == ":bien"
         assert signs.original(sign) == ("BIEN.azee", b":bien\n")
-        np.testing.assert_array_equal(signs.clip(sign, signer).coordinates, one.coordinates)
-    first = sign.facts.timing.attack_s
+        stored = signs.clip(sign, signer).coordinates
+    before = int(np.abs(one.coordinates - stored[0]).max(axis=1).argmin())
+    np.testing.assert_array_equal(stored, one.coordinates[before : before + len(stored)])
+    first = sign.facts.timing.attack_s + before / 30
     arm = [v for v, name in enumerate(signer.coordinates.names) if name.startswith("arm_R")]
     start = played["lead_s"] + recording["body_s"][0]
     for since in (0.0, 0.4, 0.8):

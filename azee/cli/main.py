@@ -29,6 +29,7 @@ from azee.cli.gloss import gloss
 from azee.cli.lexicon import lexicon
 from azee.cli.lsp import lsp
 from azee.cli.manifest import manifest
+from azee.cli.play import play
 from azee.cli.render import render
 from azee.cli.repl import repl
 from azee.cli.retarget import retarget
@@ -60,6 +61,7 @@ azee.add_command(lexicon)
 azee.add_command(gloss)
 azee.add_command(corpus)
 azee.add_command(db)
+azee.add_command(play)
 azee.add_command(elan)
 azee.add_command(lsp)
 azee.add_command(rules)

@@ -30,12 +30,13 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee_solver.posing": {"azee_rig", "azee_solver", "numba"},
     "azee_solver.surfaces": {"azee_rig", "azee_solver", "numba"},
     "azee.score": DECLARATIONS,
+    "azee.score.recorded_motion": {"azee.clip", "azee_rig"},
     "azee.score.articulators": {"azee_grammar"} | DECLARATIONS,
     "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
     "azee.corpus": {"azee.lang", "azee.export.files", "azee.wording", "matplotlib", "pympi"},
     "azee.assist": {"azee_grammar", "azee.lang", "azee.score"} | DECLARATIONS,
     "azee.clip": {"azee_rig", "numpy"},
-    "azee.signs": {"azee.clip", "azee_rig", "sqlalchemy", "alembic"},
+    "azee.signs": {"azee.clip", "azee.score", "azee_rig", "numpy", "sqlalchemy", "alembic"},
     "azee.motion.tasks": {"azee.clip", "azee.score", "azee_solver", "azee_rig", "numpy"},
     "azee.motion.curves": {
         *("azee.clip", "azee.score", "azee.motion.tasks"),
@@ -96,6 +97,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"azee_grammar", "azee_rig"},
     "azee.clips": {"azee.clip", "azee.formats", "azee_grammar", "azee_rig"},
     "azee.arguments": set(),
+    "azee.calibration": {"azee.clip", "azee_rig", "azee_solver", "numpy"},
     "azee.compilation": {
         *("azee.animation", "azee.arguments", "azee.clip", "azee.export.files", "azee.formats"),
         *("azee.lang", "azee.motion", "azee.quality", "azee.score", "azee.wording"),

@@ -36,6 +36,7 @@ from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
 from azee.cli.spell import spell
+from azee.cli.studio import studio
 from azee.cli.study import study
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
@@ -68,6 +69,7 @@ azee.add_command(rig)
 azee.add_command(retarget)
 azee.add_command(repl)
 azee.add_command(spell)
+azee.add_command(studio)
 azee.add_command(study)
 
 

@@ -26,6 +26,8 @@ export class AzeePlayer extends HTMLElement {
   private pose: Pose | null = null;
   private playback = new Playback(0, 0);
   private shown: Label | null = null;
+  private told: Playback['state'] = 'idle';
+  private last: Movement | null = null;
   private lastFrame: number | null = null;
   private frame = 0;
   private loading: Promise<void> = Promise.resolve();
@@ -75,6 +77,11 @@ export class AzeePlayer extends HTMLElement {
     return this.playback.duration;
   }
 
+  /** Seconds into the idle loop. */
+  get idleTime(): number {
+    return this.playback.idling;
+  }
+
   get currentTime(): number {
     return this.playback.time;
   }
@@ -106,10 +113,12 @@ export class AzeePlayer extends HTMLElement {
     this.start(make(this.body!));
   }
 
+  /** Goes on where it was paused, or plays the last movement again. */
   play(): void {
-    if (this.playback.state === 'idle' && this.settings.src) void this.perform0(false);
-    else if (!this.playback.playing) return;
-    else {
+    if (this.playback.state === 'idle' || !this.playback.playing) {
+      if (this.last) this.start(this.last);
+      else if (this.settings.src) this.fetching(this.fetchClip(false));
+    } else {
       if (this.playback.time >= this.playback.duration) this.playback.seek(0);
       this.playback.paused = false;
     }
@@ -197,25 +206,31 @@ export class AzeePlayer extends HTMLElement {
     const wanted = src ?? '';
     if (wanted !== this.address || (avatar && this.bodyOf(avatar) !== this.bodyAddress)) {
       this.address = wanted;
-      this.loading = src ? this.perform0(!this.settings.autoplay) : this.dress(avatar ?? 'signer');
-      this.loading.catch((error: unknown) => this.fail(error));
+      this.fetching(src ? this.fetchClip(!this.settings.autoplay) : this.dress(avatar ?? 'signer'));
     }
     void this.loading.then(() => this.stage?.arrange(this.settings), () => undefined)
       .catch((error: unknown) => this.fail(error));
     this.update();
   }
 
-  private async perform0(paused: boolean): Promise<void> {
+  private fetching(loading: Promise<void>): void {
+    this.loading = loading;
+    loading.catch((error: unknown) => this.fail(error));
+  }
+
+  private async fetchClip(paused: boolean): Promise<void> {
     const address = this.settings.src!;
     const answer = await fetch(new URL(address, document.baseURI));
     if (!answer.ok) throw Error(`${address}: ${answer.status} ${answer.statusText}`);
     const clip = new WebClip(await answer.arrayBuffer());
     await this.dress(this.settings.avatar ?? clip.header.rig);
-    if (this.settings.applyIdle && paused) return; // it stands there and breathes
-    this.start(clip.on(this.body!), paused);
+    const movement = clip.on(this.body!);
+    if (this.settings.applyIdle && paused) this.last = movement; // until then the loop is shown
+    else this.start(movement, paused);
   }
 
   private start(movement: Movement, paused = false): void {
+    this.last = movement;
     this.playback.play(movement, paused);
     this.update();
   }
@@ -237,6 +252,7 @@ export class AzeePlayer extends HTMLElement {
       if (this.bodyAddress !== address || !this.stage) return;
       this.body = body;
       this.pose = body.pose();
+      this.last = null;
       this.playback = new Playback(body.joints.length, body.units.length);
       this.playback.speed = this.settings.speed;
       this.playback.loop = this.settings.loop;
@@ -244,6 +260,7 @@ export class AzeePlayer extends HTMLElement {
       if (answer?.ok) this.playback.setIdle(new WebClip(await answer.arrayBuffer()).on(body));
       this.stage.show(body);
       await this.stage.arrange(this.settings);
+      this.update();
       this.dispatchEvent(new CustomEvent('azee-ready'));
     } finally {
       if (this.bodyAddress === address) this.toggleAttribute('data-loading', false);
@@ -274,7 +291,11 @@ export class AzeePlayer extends HTMLElement {
       this.body.apply(this.pose);
       this.stage.dirty = true;
     }
-    const label = this.playback.label;
+    const { label, state } = this.playback;
+    if (state !== this.told) {
+      this.told = state;
+      this.dispatchEvent(new CustomEvent('azee-state', { detail: { state } }));
+    }
     if (label === this.shown) return;
     this.shown = label;
     this.dispatchEvent(new CustomEvent('azee-sign', { detail: { label } }) satisfies SignEvent);

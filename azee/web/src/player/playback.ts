@@ -34,6 +34,11 @@ export class Playback {
     return this.movement;
   }
 
+  /** Seconds into the idle loop. */
+  get idling(): number {
+    return this.idleTime;
+  }
+
   get duration(): number {
     return this.movement?.duration ?? 0;
   }

@@ -18,6 +18,7 @@ MODULES = {
     "language": "benchmarks.language_growth",
     "signs": "benchmarks.signs",
     "signs-db": "benchmarks.sign_database",
+    "bit-rates": "benchmarks.bit_rates",
     "motion": "benchmarks.motion_length",
     "prompt": "benchmarks.prompt",
     "frames": "benchmarks.frames",

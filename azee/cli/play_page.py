@@ -6,6 +6,7 @@ import tempfile
 import webbrowser
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -89,36 +90,42 @@ def show_page(
     return DONE
 
 
-def export(
-    folder: Path,
-    text: str,
-    rig: str,
-    letters: Sequence[Language],
-    texts: Sequence[Path],
-    libraries: Sequence[Path],
-    place: str | None,
-    language: str | None,
-    *,
-    quiet: bool,
-) -> int:
-    """Write the page into a folder. Args: place: a database whose signs it can play."""
-    if not (letters or texts or place):
+@dataclass(frozen=True, slots=True)
+class Exported:
+    """What an exported page has.
+
+    text: typed at first. letters, texts: alphabets and files in AZee. place: a database with signs,
+    of which those of a language are meant.
+    """
+
+    text: str
+    rig: str
+    letters: Sequence[Language]
+    texts: Sequence[Path]
+    libraries: Sequence[Path]
+    place: str | None
+    language: str | None
+
+
+def export(folder: Path, wanted: Exported, *, quiet: bool) -> int:
+    """Write the page into a folder for a web server."""
+    if not (wanted.letters or wanted.texts or wanted.place):
         raise click.UsageError("give --letters, --azee or --db: what can be typed on the page")
     from azee.formats import writing
     from azee.player.export import NotAnExportError, export_page
-    from azee.player.vocabularies import letters as alphabet
-    from azee.player.vocabularies import texts as written
+    from azee.player.vocabularies import letters, texts
 
-    body = load_body(rig)
+    body = load_body(wanted.rig)
     with ExitStack() as stack:
         known: list[Vocabulary] = []
-        if place:
-            known.append(_signs(stack, place, body, language))
-        known += [alphabet(one, body) for one in letters]
-        known += [written(texts, body, libraries)] if texts else []
+        if wanted.place:
+            known.append(_signs(stack, wanted.place, body, wanted.language))
+        known += [letters(one, body) for one in wanted.letters]
+        if wanted.texts:
+            known.append(texts(wanted.texts, body, wanted.libraries))
         with bar("Solving", quiet=quiet) as progress, writing(folder):
             try:
-                count = export_page(folder, body, known, text=text, progress=progress)
+                count = export_page(folder, body, known, text=wanted.text, progress=progress)
             except NotAnExportError as error:
                 help_ = "name a new folder, or one that `azee play --page --export` wrote"
                 raise AZeeError(Diagnostic("cannot-write", str(error), None, help=help_)) from error

@@ -25,8 +25,8 @@ SEED = 7
 def idle_loop(rig: Rig, *, fps: int = 30, rest: Rest = DEFAULT) -> Clip:
     """Return `LOOP_S` of idling; its first and last frames are the same posture.
 
-    Of a movement x over L + J seconds it is x(t) for t from J on. From L to L + J it is blended into
-    x(t − L), so that it ends with x(J), where it began. The weights are those of minimum jerk:
+    Of a movement x over L + J seconds it is x(t) for t from J on. From L to L + J it is blended
+    into x(t − L), so that it ends with x(J), where it began. The weights are those of minimum jerk:
     speed and acceleration do not jump either.
     """
     whole = perform(Blank(Fraction(LOOP_S + JOIN_S)), rig, fps=fps, rest=rest, seed=SEED).clip

@@ -61,6 +61,7 @@ def _symmetric(evaluator: Evaluator, spans: Sequence[TaskSpan], q: Array) -> boo
     both = np.stack([q, mirrored(evaluator.rig.coordinates, q)])
     frames = evaluator.rig.chain.frames(both)
     for span in spans:
+        assert span.constraint is not None
         residual, unit = evaluator.residual(span.constraint, frames, both)
         if not residual[1] <= residual[0] + ALIKE[unit]:
             return False

@@ -67,11 +67,17 @@ class FrameProblems:
     options: SolveOptions
 
     def trajectory(
-        self, times: Sequence[Fraction], reference: Array, accented: Mask, fps: float
+        self,
+        times: Sequence[Fraction],
+        reference: Array,
+        accented: Mask,
+        played: Mask,
+        fps: float,
     ) -> Trajectory:
         """Return the problem of the frames at exact times, near a movement.
 
         Args: reference: (T, V). accented: (T, V), where accents ask for what the reference has.
+            played: (T, V), where the reference is kept.
         """
         coordinates = self.monitor.evaluator.rig.coordinates
         free_keep = self.options.posture * np.array(coordinates.stiffness) ** 2
@@ -79,7 +85,7 @@ class FrameProblems:
         free_keep[carriers] *= CARRIER_SHARE
         keep = np.tile(free_keep, (len(times), 1))
         keep[accented] = (ACCENT_SHARE * self.options.tolerance.angle_rad) ** -2
-        fixed = np.zeros(keep.shape, dtype=np.bool_)
+        fixed = played.copy()
         target = np.clip(reference, coordinates.lower, coordinates.upper)
         of_frame = np.empty(len(times), dtype=np.int64)
         programs: list[Program] = []

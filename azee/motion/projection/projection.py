@@ -26,12 +26,13 @@ class Reference:
     """The movement that is wanted as far as constraints allow, at the frames of a clip.
 
     times: exact, on the score's time line. q: (T, V), not limited. accented: (T, V), where accents
-    ask for what q has.
+    ask for what q has. played: (T, V), where q is a recording's, which is not changed.
     """
 
     times: tuple[Fraction, ...]
     q: Array
     accented: NDArray[np.bool_]
+    played: NDArray[np.bool_]
 
 
 LEAD = 0.018
@@ -67,7 +68,9 @@ def on_living_body(planned: Plan, reference: Reference, seed: int | None) -> Pla
 def project(planned: Plan, reference: Reference, fps: float) -> Array:
     """Return the movement (T, V) nearest to a reference that meets what is in force, smoothly."""
     problems = FrameProblems(planned.monitor, _weights_of_unmet(planned), SolveOptions())
-    problem = problems.trajectory(reference.times, reference.q, reference.accented, fps)
+    problem = problems.trajectory(
+        reference.times, reference.q, reference.accented, reference.played, fps
+    )
     return problem.solve(fps)
 
 

@@ -197,7 +197,8 @@ def _rules(language: str | None, lexicon: str | None, libraries: Sequence[Path])
     from azee.spelling.text import LANGUAGES
     from azee_grammar.source import Source
 
-    folders, names = [*libraries], [name for name in LANGUAGES if name == language]
+    folders = [*libraries]
+    names: list[str] = [name for name in LANGUAGES if name == language]
     if lexicon is not None:
         folder = lexicon_folder(lexicon)
         folders.append(folder.parent)

@@ -23,9 +23,9 @@ CHARACTERS = "ABCÇDEFGĞHIİJKLMNOÖPQRSŞTUÜVWXYZ0123456789"
 """Characters that any of the alphabets has."""
 
 
-def letters(language: Language, rig: Rig) -> Vocabulary:
-    """Return the letters and digits of an alphabet, a clip each."""
-    found = {w.letters[0]: w for c in CHARACTERS for w in spelled(c, language).words}
+def letters(language: Language, rig: Rig, characters: str = CHARACTERS) -> Vocabulary:
+    """Return those letters and digits that an alphabet has of some characters, a clip each."""
+    found = {w.letters[0]: w for c in characters for w in spelled(c, language).words}
 
     def entries() -> Iterator[Entry]:
         for letter in found:

@@ -1,27 +1,13 @@
 // node player_page.mjs URL PICTURES
 // Uses the page of `azee play --page` in headless Chromium as a person does: types, plays, turns the
 // view, errs, changes speed and body, quits. Prints what it saw.
-import { chromium } from 'playwright-core';
+import { opened, played } from './chromium.mjs';
 
 const [url, pictures] = process.argv.slice(2);
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM,
-  args: ['--no-sandbox', '--disable-background-networking', '--disable-component-update',
-    '--disable-sync', '--disable-quic', '--no-first-run', '--use-gl=angle',
-    '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
 const SMALL = { width: 480, height: 720 }; // what moves is drawn without a graphics card
-const complaints = [], foreign = [], seen = {};
+const { browser, page, complaints, foreign } = await opened(url, SMALL);
+const seen = {};
 try {
-  const page = await browser.newPage({ viewport: SMALL, locale: 'en' });
-  page.setDefaultTimeout(120_000);
-  page.on('pageerror', error => complaints.push(error.message));
-  page.on('console', message => {
-    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
-  });
-  page.on('request', request => {
-    if (!request.url().startsWith(url) && !request.url().startsWith('data:')) foreign.push(request.url());
-  });
   const player = page.locator('azee-player');
   const state = wanted => page.waitForFunction(
     wanted => document.querySelector('azee-player')?.state === wanted, wanted);
@@ -35,33 +21,20 @@ try {
     await page.waitForTimeout(300);
     return scrolled;
   };
-  const shown = () => page.waitForFunction(() => {
-    const p = document.querySelector('azee-player');
-    return p && !p.hasAttribute('data-loading') && p.shadowRoot?.querySelector('.bar');
-  });
+  const says = text => page.waitForFunction(
+    text => document.querySelector('#now').textContent.includes(text), text);
 
-  await page.goto(url);
-  await shown();
-  await page.waitForFunction(() => document.querySelector('#now').textContent === 'idle');
+  await says('idle');
   await picture('idle');
 
-  // Every frame: when, state, what the box says, where the right palm is.
-  await player.evaluate(p => {
-    globalThis.frames = [];
-    const note = now => {
-      const joints = p.inspect().joints;
-      frames.push([now / 1000, p.state, document.querySelector('#now').textContent, joints['palm.R'] ?? joints['palm_R'], p.currentTime, p.idleTime]);
-      globalThis.noting = requestAnimationFrame(note);
-    };
-    requestAnimationFrame(note);
-  });
+  await player.evaluate(p => { p.held = true; });
   await page.fill('#text', 'hi!');
   await page.selectOption('#source', 'asl');
   await page.press('#text', 'Enter');
-  await state('playing');
-  await state('idle');
+  await state('waiting');
+  await page.locator('#told li').waitFor();
   seen.told = await page.locator('#told li').allTextContents();
-  seen.frames = await page.evaluate(() => { cancelAnimationFrame(noting); return frames; });
+  seen.frames = await played(page);
 
   // The view: sideways, up and down, sideways with the middle button, the wheel.
   const box = await player.boundingBox();
@@ -90,26 +63,23 @@ try {
   await picture('mistake');
   await page.fill('#text', ':tree\n');
   await page.click('#play');
-  await state('playing');
+  await state('waiting');
   await player.evaluate(p => { p.pause(); p.currentTime = p.duration * 0.5; });
   await picture('playing');
   await player.evaluate(p => p.play());
   await player.locator('select').selectOption('0.1');
-  const slow = async () => {
-    const [time, now] = await player.evaluate(p => [p.currentTime, performance.now() / 1000]);
-    return { time, now };
-  };
-  const a = await slow();
-  await page.waitForTimeout(1500);
-  const b = await slow();
-  seen.slow = (b.time - a.time) / (b.now - a.now);
+  seen.slow = await player.evaluate(p => {
+    const before = p.currentTime;
+    for (let i = 0; i < 30; i++) p.advance(1 / 30);
+    return p.currentTime - before;
+  });
   await page.keyboard.press('Escape');
   await state('idle');
   await player.locator('select').selectOption('1');
 
   await page.selectOption('#body', 'child');
-  await shown();
-  await page.waitForFunction(() => document.querySelector('#now').textContent === 'idle');
+  await page.waitForFunction(() => document.querySelector('azee-player').hasAttribute('data-loading'));
+  await page.waitForFunction(() => !document.querySelector('azee-player').hasAttribute('data-loading'));
   seen.widths = {};
   for (const [width, height] of [[1366, 768], [1024, 768], [390, 844]])
     seen.widths[width] = await picture('child', width, height);
@@ -117,12 +87,12 @@ try {
   Object.assign(seen, { device, frames_ms });
 
   await page.goto(`${url}?lang=fr&color=skyblue&text=ami&background=studio&controls=false`);
-  await page.waitForFunction(() => document.querySelector('#now').textContent === 'au repos');
+  await says('au repos');
   await page.waitForTimeout(500);
   seen.french = [await page.textContent('#play'), await page.inputValue('#text'), await player.locator('.bar').count()];
   await picture('french', 1024);
   await page.click('#quit');
-  await page.waitForFunction(() => document.querySelector('#now').textContent.includes('terminé') || document.querySelector('#now').textContent.includes('arrêté'));
+  await says('arrêté');
   console.log(JSON.stringify({ ...seen, complaints, foreign }));
 } finally {
   await browser.close();

@@ -30,7 +30,7 @@ const form = made('form', {},
     made('label', {}, words.source, source), made('label', {}, words.body, body)),
   made('div', { class: 'row' }, play, stop, quit),
   told, known);
-document.body.append(player, made('main', {}, now, form));
+document.body.append(made('main', {}, now, form));
 
 function tell(messages: readonly string[]): void {
   told.replaceChildren(...messages.map(message => made('li', {}, message)));
@@ -54,6 +54,7 @@ async function begin(): Promise<void> {
     if (value !== null && !OWN.includes(name)) player.setAttribute(name.toLowerCase(), value);
   }
   player.setAttribute('avatar', body.value);
+  document.body.prepend(player); // not before it is known what it shows
   body.onchange = () => { player.setAttribute('avatar', body.value); };
 
   const list = (): void => {

@@ -108,6 +108,7 @@ export class Playback {
     this.time = end;
     if (this.idle) {
       this.now = 'idle';
+      this.time = 0;
       this.movement = null;
     } else {
       this.paused = true;

@@ -1,12 +1,14 @@
 """Movements from one state to another: quintic polynomials with given ends.
 
 Between the states (q₀, v₀, a₀) and (q₁, v₁, a₁), T apart, there is one polynomial of degree 5. With
-τ = t/T, minimum jerk s(τ) = 10τ³ − 15τ⁴ + 6τ⁵ and their mirror images for the other end,
+τ = t/T, minimum jerk s(τ) = 10τ³ − 15τ⁴ + 6τ⁵ and the mirror images of h₁ and h₂ for the other end,
 
     q(t) = q₀ + (q₁ − q₀) s(τ) + T v₀ h₁(τ) − T v₁ h₁(1 − τ) + T² a₀ h₂(τ) + T² a₁ h₂(1 − τ)
     h₁(τ) = τ − 6τ³ + 8τ⁴ − 3τ⁵,   h₂(τ) = (τ² − 3τ³ + 3τ⁴ − τ⁵)/2
 
-It is the movement of least jerk between them (Flash and Hogan 1985).
+A body that has a whole second would go on for long as it came: |T v h₁| is up to T |v|/5. Nobody
+needs more than `BRAKE_S` to stop. So in h₁ and h₂ T is at most that; since h₁ and h₂ vanish at
+their far end with two derivatives, q stays C².
 """
 
 from __future__ import annotations
@@ -20,6 +22,8 @@ from azee.clip.spline import minimum_jerk
 
 Array = NDArray[np.float64]
 
+BRAKE_S = 0.4
+"""In this time what a body did before is over, and what it will do begins."""
 SPREAD_RAD = 0.1
 """How far an acceleration at an end may lead a coordinate astray: those of recordings are noisy."""
 _PEAK = 0.0173
@@ -57,14 +61,17 @@ def quintic(start: State, end: State, span_s: float, times_s: Array) -> Array:
 
     Accelerations count only as far as they lead astray by `SPREAD_RAD` at most: T² |a| h₂ ≤ that.
     """
-    tau = (np.asarray(times_s, dtype=np.float64) / span_s)[:, None]
-    most = SPREAD_RAD / (_PEAK * span_s**2)
+    t = np.asarray(times_s, dtype=np.float64)[:, None]
+    brake_s = min(span_s, BRAKE_S)
+    leaving = np.minimum(t / brake_s, 1.0)
+    arriving = np.minimum((span_s - t) / brake_s, 1.0)
+    most = SPREAD_RAD / (_PEAK * brake_s**2)
     a0, a1 = (np.clip(state.acceleration, -most, most) for state in (start, end))
     return np.asarray(
         start.values
-        + (end.values - start.values) * minimum_jerk(tau)
-        + span_s * (start.velocity * _h1(tau) - end.velocity * _h1(1.0 - tau))
-        + span_s**2 * (a0 * _h2(tau) + a1 * _h2(1.0 - tau))
+        + (end.values - start.values) * minimum_jerk(t / span_s)
+        + brake_s * (start.velocity * _h1(leaving) - end.velocity * _h1(arriving))
+        + brake_s**2 * (a0 * _h2(leaving) + a1 * _h2(arriving))
     )
 
 

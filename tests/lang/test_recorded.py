@@ -115,7 +115,7 @@ def test_the_first_template_that_matches_from_the_top_is_taken() -> None:
     lines = "# signs\n:bien => 'GOOD\nseq(list(?a, :bien)) => 'PAIR\n"
     score, shortcuts = shortened(lines, "", "seq(list(:bien, seq(list(:bonjour, :bien))))")
     assert played(score) == ["GOOD", "PAIR"]
-    assert [t.recording for t in shortcuts.taken] == ["recorded('GOOD)", "recorded('PAIR)"]
+    assert [t.recording for t in shortcuts.taken] == ["recorded 'GOOD", "recorded 'PAIR"]
     assert [*shortcuts.taken[1].bindings] == ["a"]
     score, shortcuts = shortened(lines, "", "seq(list(:bien, :bien))")
     assert played(score) == ["PAIR"]  # nothing inside a match is searched

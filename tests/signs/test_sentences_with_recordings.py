@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from any_recordings import AnyRecordings, RaisedArm
@@ -10,6 +12,7 @@ from numpy.typing import NDArray
 import azee
 from azee.compilation import Compilation
 from azee.quality.motion_report import ConstraintResult
+from azee.score.score import Group
 from azee_rig.rig import Rig
 from azee_solver import kinematics
 
@@ -66,14 +69,14 @@ def test_the_recording_is_played_as_it_was(between: Compilation, touched: Compil
 def test_hands_do_not_fall_to_idle_between(between: Compilation) -> None:
     """The palm is never lower than the lowest of its two neighbours, but for 5 cm."""
     height = palm_heights(between, "R")
-    blocks = {block.name: block.interval_in_parent for block in between.score.blocks}  # type: ignore[union-attr]
-    body = between.report.recordings[0].body_s
+    assert isinstance(between.score, Group)
+    first, _, last = (block.interval_in_parent for block in between.score.blocks)
     spans = [
-        (0.0, float(blocks["1"].end)),
-        body,
-        (float(blocks["3"].start), float(blocks["3"].end)),
+        (float(first.start), float(first.end)),
+        between.report.recordings[0].body_s,
+        (float(last.start), float(last.end)),
     ]
-    for one, other in zip(spans, spans[1:], strict=False):
+    for one, other in pairwise(spans):
         lowest = min(height[rows(between, *span)].min() for span in (one, other))
         way = height[rows(between, one[1], other[0])]
         assert way.min() > lowest - 0.05

@@ -192,7 +192,8 @@ class _Run:
         self._still = bool(np.all(self._values == self._values[0]))
         self._onsets, self._manner = onsets, keys[-1].manner
         self._plays, self._moving = keys[0].plays, any(key.state for key in keys)
-        self._ends = [key.state or State.at_rest(key.values) for key in (keys[0], keys[-1])]
+        first, last = (key.state or State.at_rest(key.values) for key in (keys[0], keys[-1]))
+        self._ends = first, last
 
     def sample(self, times_s: Array, out: Array) -> None:
         """Fill in the rows of the times inside, both ends included."""
@@ -204,8 +205,9 @@ class _Run:
         if self._plays is not None:
             out[rows] = self._plays(times_s[rows])
         elif self._moving and self.end_s > self.start_s:
-            span_s = self.end_s - self.start_s
-            out[rows] = quintic(*self._ends, span_s, times_s[rows] - self.start_s)
+            start, end = self._ends
+            since_s, span_s = times_s[rows] - self.start_s, self.end_s - self.start_s
+            out[rows] = quintic(start, end, span_s, since_s)
         elif self._still or self.end_s <= self.start_s:
             out[rows] = values[-1]
         elif len(values) == 2 and self._onsets is not None:

@@ -177,7 +177,7 @@ def imposed(blocks: Iterable[RecordedBlock], times: Sequence[Fraction], count: i
     for block in blocks:
         rows = [i for i, time in enumerate(times) if block.plays(time)]
         if rows:
-            at = np.ix_(rows, block.members)
+            at = np.ix_(np.array(rows), block.members)
             seconds = np.array([float(times[i]) for i in rows])
             mask[at], values[at] = True, block.sample(seconds)[:, block.members]
     return Imposed(mask, values)

@@ -16,7 +16,7 @@ import azee
 from azee.export.files import replace_file
 from azee.export.formats.glb import write_body
 from azee.export.formats.web_clip import write_web_clip
-from azee.web.bundle import bundle
+from azee.web.bundle import parts
 from azee_rig.load import load_rig
 
 ROOT = Path(__file__).parents[1]
@@ -51,9 +51,8 @@ def build(folder: Path, sources: Sequence[Path] = EXAMPLES) -> None:
     body = load_rig("signer")
     for name in ("body", "clip"):
         (folder / name).mkdir(parents=True, exist_ok=True)
-    for path in bundle():
-        if not path.name.startswith(("player.", "studio")):
-            shutil.copyfile(path, folder / path.name)
+    for path in parts("azee-player.js"):
+        shutil.copyfile(path, folder / path.name)
     write_body(body, folder / "body" / f"{body.name}.glb")
     figures = []
     for source in sources:

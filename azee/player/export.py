@@ -21,13 +21,13 @@ from azee.export.formats.glb import write_body
 from azee.export.formats.web_clip import web_clip
 from azee.player.idle import idle_loop
 from azee.player.performing import Kind
-from azee.web.bundle import bundle
+from azee.web.bundle import parts
 from azee_rig.rig import Rig
 
 CATALOGUE = "catalogue.json"
 PAGE = "player.html"
-SCRIPTS = ("player", "azee-player", "vendor-three")
-"""Of the built files, those that the player needs, by the beginning of their names."""
+ELEMENT = "azee-player.js"
+"""The script of the element, which pages of others may use too."""
 
 
 class NotAnExportError(ValueError):
@@ -73,10 +73,8 @@ def export_page(
     Raises: OSError: it cannot be written. NotAnExportError: the folder holds something else.
     """
     with _replaced(folder) as part:
-        for path in bundle():
-            if path.name.startswith(SCRIPTS) or path.suffix == ".md":
-                name = "index.html" if path.name == PAGE else path.name
-                shutil.copyfile(path, part / name)
+        for path in parts(PAGE, ELEMENT):
+            shutil.copyfile(path, part / ("index.html" if path.name == PAGE else path.name))
         for name in ("body", "idle", "sign"):
             (part / name).mkdir()
         write_body(rig, part / "body" / f"{rig.name}.glb")

@@ -7,7 +7,7 @@ const { browser, page, complaints, foreign } = await opened(url, { width: 480, h
 try {
   const clips = [];
   page.on('request', request => { if (request.url().includes('/sign/')) clips.push(request.url()); });
-  await page.waitForFunction(() => document.querySelector('#now').textContent === 'idle');
+  await page.waitForFunction(() => document.querySelector('#now')?.textContent === 'idle');
   await page.evaluate(() => { document.querySelector('azee-player').held = true; });
   const state = wanted => page.waitForFunction(
     wanted => document.querySelector('azee-player').state === wanted, wanted);

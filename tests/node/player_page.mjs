@@ -22,7 +22,7 @@ try {
     return scrolled;
   };
   const says = text => page.waitForFunction(
-    text => document.querySelector('#now').textContent.includes(text), text);
+    text => document.querySelector('#now')?.textContent?.includes(text), text);
 
   await says('idle');
   await picture('idle');

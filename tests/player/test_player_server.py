@@ -14,6 +14,9 @@ import pytest
 from served import Served
 
 MOST_BYTES = 200_000
+LONG = "key 601\n    place @I_TIP(s) @CH\n"
+
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +61,7 @@ def test_typed_text_becomes_a_clip_or_a_message(served: Served) -> None:
     assert (status, diagnostic["code"], diagnostic["line"]) == (422, "unknown-rule", 1)
     status, told = ask(served, "perform", {"text": "?", "source": "tid", "body": "signer"})
     assert (status, b"unknown-character" in told) == (422, True)
-    status, told = ask(served, "perform", {"text": "key 601", "source": "azee", "body": "signer"})
+    status, told = ask(served, "perform", {"text": LONG, "source": "azee", "body": "signer"})
     assert (status, b"the page plays 600 s" in told) == (422, True)
 
 

@@ -137,7 +137,7 @@ def animate(
 
     # 1. Give ways their time: scale the score, and bend it where an arm has too far to go.
     #    Before, find the ends of turns, and the places of points as they were.
-    postures = solver or _default_solver(rig, dominant, precise)
+    postures = solver or default_solver(rig, dominant, precise)
     score = paced(with_turns(score, dominant), 1 / Fraction(str(float(tempo))))
     if timing == "performed":
         postures = RememberingSolver(postures)
@@ -237,7 +237,9 @@ def animate(
     return Animation(score, clip, report, key_times, lead_s, by_block)
 
 
-def _default_solver(rig: Rig, dominant: Side, precise: bool) -> PostureSolver:
+def default_solver(rig: Rig, dominant: Side, precise: bool = False) -> PostureSolver:
+    """Return what solves key postures where nothing else is given: `azee_solver.solve`."""
+
     def answer(
         ik_tasks: Sequence[Task],
         *,

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from azee.lang.recordings import Recordings
     from azee.lang.shortcuts import Taken
     from azee.motion.keys.rest import Rest
+    from azee.motion.tasks.key_posture import PostureSolver
     from azee.motion.tasks.key_selection import Mode
     from azee.motion.timing.performed import Timing
     from azee.quality.motion_report import MotionReport
@@ -252,10 +253,12 @@ def perform(
     timing: Timing | None = None,
     tempo: float = 1.0,
     provenance: Provenance | None = None,
+    postures: PostureSolver | None = None,
 ) -> Compilation:
     """Make a body play a score. The options are those of `compile`.
 
     Args: provenance: of the text that the score is of; it is stamped into files and the report.
+        postures: what solves key postures instead of `solver`, such as one that remembers.
 
     Raises: AZeeError: the rig lacks what the score names, and `strict_body` is set; `clip-times`:
         too many frames.
@@ -278,8 +281,7 @@ def perform(
         hint = "give fewer --fps, or compile one --utterance at a time"
         raise AZeeError(Diagnostic("clip-times", str(error), None, help=hint)) from error
     side = _side(dominant)
-    postures = None
-    if solver == "two-level":
+    if postures is None and solver == "two-level":
         from azee.motion.keys.two_level import two_level_solver
 
         postures = two_level_solver(rig, side)

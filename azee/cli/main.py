@@ -37,6 +37,7 @@ from azee.cli.rig import rig
 from azee.cli.rules import rules
 from azee.cli.score import score
 from azee.cli.spell import spell
+from azee.cli.studio import studio
 from azee.cli.study import study
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
@@ -61,7 +62,6 @@ azee.add_command(lexicon)
 azee.add_command(gloss)
 azee.add_command(corpus)
 azee.add_command(db)
-azee.add_command(play)
 azee.add_command(elan)
 azee.add_command(lsp)
 azee.add_command(rules)
@@ -69,7 +69,9 @@ azee.add_command(manifest)
 azee.add_command(rig)
 azee.add_command(retarget)
 azee.add_command(repl)
+azee.add_command(play)
 azee.add_command(spell)
+azee.add_command(studio)
 azee.add_command(study)
 
 

@@ -1,4 +1,4 @@
-"""`azee play`: a text with the signs of a database, a sign a character or a word."""
+"""`azee play`: a text with the signs of a database, as a movement or on a page."""
 
 from __future__ import annotations
 
@@ -13,20 +13,31 @@ from azee.cli.console import DONE, MISSED, news, show, working
 from azee.cli.db_place import db_option, opened, usual_place
 from azee.cli.number import Number, Seconds
 from azee.cli.outputs import check_media, check_outputs, size_of, with_suffix
+from azee.cli.play_page import Exported, export, page_options, show_page
 from azee.cli.text import library_option, rest_option
 from azee.formats import FILM_SUFFIXES, WRITERS
 from azee_grammar.diagnostic import AZeeError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from azee.clip.blend import Blend
     from azee.compilation import Compilation
     from azee.lang.program import Program
     from azee.motion.keys.rest import Rest
+    from azee.player.performing import Performance, Source
+    from azee.signs.database import SignDatabase
     from azee.signs.wanted import TextMode
+    from azee.spelling.text import Language
+    from azee_grammar.diagnostic import Diagnostic
+    from azee_rig.rig import Rig
+
+    Played = tuple[Compilation, tuple[Diagnostic, ...]]
 
 
 @click.command(short_help="A text with signs of a database, as a moving body.")
-@click.argument("text", nargs=-1, required=True)
+@click.argument("text", nargs=-1)
+@page_options
 @click.option(
     "-o", "outputs", metavar="OUT", multiple=True, type=click.Path(path_type=Path),
     callback=with_suffix(*WRITERS),
@@ -99,30 +110,52 @@ def play(
     report: Path | None,
     strict: bool,
     quiet: bool,
+    page: bool,
+    folder: Path | None,
+    letters: Sequence[Language],
+    texts: Sequence[Path],
+    port: int,
+    opens: bool,
 ) -> int:
     """Play TEXT: the signs that a database has for its characters or words, one after the other.
 
     A character without a sign is left out, and told. A word without one is signed by a rule, else
     spelled, and told.
 
+    With --page, TEXT is what the page shows at first; AZee and spelled letters can be typed too.
+
     Exit codes: 0 done; 1 the input is at fault; 2 wrong use; 3 with --strict.
     """
+    typed = " ".join(text)
+    if page and outputs:
+        raise click.UsageError("a page writes no file: give either --page or -o")
+    if folder is not None and not page:
+        raise click.UsageError("--export is of the page: give --page too")
+    if folder is not None:
+        wanted = Exported(typed, rig, letters, texts, libraries, place, language)
+        return export(folder, wanted, quiet=quiet)
+    if not (page or text):
+        raise click.UsageError("give a TEXT, or --page")
     from azee.playing import Player
 
+    def player(database: SignDatabase, where: str, body: Rig) -> Player:
+        return Player(
+            database, where, body, _rules(language, lexicon, libraries), language, variant, fps,
+            rest, not no_life, blend, transition_s, idle_s,
+        )  # fmt: skip
+
+    if page:
+        signs = _signs(place, lambda *of: player(*of).play, mode)
+        return show_page(typed, rig, port, libraries, signs, opens=opens)
     files = [*outputs, *([report] if report else [])]
     check_outputs(files)
     check_media(media, outputs)
     media = media or next((p for p in outputs if p.suffix.lower() in FILM_SUFFIXES), None)
     body = load_body(rig)
-    program = _rules(language, lexicon, libraries)
     where = place or usual_place()
     with opened(where) as database, working("Playing …", quiet=quiet) as progress:
-        player = Player(
-            database, where, body, program, language, variant, fps, rest, not no_life, blend,
-            transition_s, idle_s,
-        )  # fmt: skip
         with progress.preparing():
-            made, told = player.play(" ".join(text), mode)
+            made, told = player(database, where, body).play(typed, mode)
         for path in outputs:
             progress.now(f"Writing {path} …")
             made.save(path, media=media)
@@ -131,6 +164,30 @@ def play(
     show([*told, *made.left_out])
     news(_lines(made, files), quiet=quiet)
     return MISSED if strict and told else DONE
+
+
+def _signs(
+    place: str | None,
+    of: Callable[[SignDatabase, str, Rig], Callable[[str, TextMode], Played]],
+    mode: TextMode,
+) -> Source | None:
+    """Return what plays signs on the page; none if there is no database and none is named."""
+    where = place or usual_place()
+    if place is None and not Path(where).is_file():
+        return None
+    with opened(where) as database:  # what is wrong with it is told before the page is shown
+        title = database.store.name
+
+    def play(text: str, rig: Rig) -> Performance:
+        from azee.player.performing import Performance
+
+        with opened(where) as database:
+            made, told = of(database, where, rig)(text, mode)
+        return Performance(made.clip, [*told, *made.left_out])
+
+    from azee.player.performing import Source
+
+    return Source("signs", "words", Path(title).name, play)
 
 
 def _rules(language: str | None, lexicon: str | None, libraries: Sequence[Path]) -> Program:

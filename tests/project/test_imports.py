@@ -109,6 +109,13 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
     "azee.cli": {*OURS, "click", "rich", "platformdirs", "sqlalchemy"},
     "azee.cli.study": {*OURS, "click", "uvicorn"},
+    "azee.player": {
+        *("azee.clip", "azee.compilation", "azee.export", "azee.lang", "azee.motion.keys.rest"),
+        *("azee.score", "azee.signs", "azee.spelling", "azee.web"),
+        *("azee_grammar", "azee_rig", "numpy", "starlette"),
+    },
+    "azee.web": set(),
+    "azee.webserver": {"starlette", "uvicorn"},
     "azee": OURS,
 }
 """By the longest prefix of the importing module. A package may always import from itself."""

@@ -28,13 +28,9 @@ def write_glb(
 
     Raises: OSError: the file cannot be written.
     """
-    document = Document(generator="azee")
+    document, nodes, body = _bound_body(rig)
     if provenance is not None:
         document.asset["extras"] = {"provenance": provenance.as_json()}
-    nodes = add_joints(document, rig.skeleton)
-    mesh = add_mesh(document, rig.mesh, rig.name)
-    skin = add_skin(document, rig.skeleton, nodes)
-    body = document.add("nodes", name=f"{rig.name}_mesh", mesh=mesh, skin=skin)
     add_animation(
         document,
         clip,
@@ -44,6 +40,30 @@ def write_glb(
         body,
         rig.mesh.units,
     )
+    _write(document, rig, nodes, body, path)
+
+
+def write_body(rig: MovingBody, path: str | Path) -> None:
+    """Write a GLB of a body alone, in its bind pose and without an animation.
+
+    Raises: OSError: the file cannot be written.
+    """
+    document, nodes, body = _bound_body(rig)
+    _write(document, rig, nodes, body, path)
+
+
+def _bound_body(rig: MovingBody) -> tuple[Document, tuple[int, ...], int]:
+    """Return a document with joints, mesh and skin; the joints' nodes and the mesh's node."""
+    document = Document(generator="azee")
+    nodes = add_joints(document, rig.skeleton)
+    mesh = add_mesh(document, rig.mesh, rig.name)
+    skin = add_skin(document, rig.skeleton, nodes)
+    return document, nodes, document.add("nodes", name=f"{rig.name}_mesh", mesh=mesh, skin=skin)
+
+
+def _write(
+    document: Document, rig: MovingBody, nodes: tuple[int, ...], body: int, path: str | Path
+) -> None:
     parents = rig.skeleton.parents
     roots = [node for node, parent in zip(nodes, parents, strict=True) if parent < 0]
     scene = document.add("scenes", name=rig.name, nodes=[*roots, body])

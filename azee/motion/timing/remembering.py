@@ -24,13 +24,18 @@ _Question: TypeAlias = tuple[
 ]
 
 
+MOST_ANSWERS = 2000
+"""Answers that are remembered; beyond, the oldest go."""
+
+
 @dataclass(slots=True)
 class RememberingSolver:
     """Gives the answer of another solver, once more without solving where only times differ.
 
     When a task starts and in which block it stands does not matter for a posture; which of two
     tasks starts first, or was written first, does. Only global searches are remembered: local ones
-    belong to the frames of one movement.
+    belong to the frames of one movement. It may serve several movements of one body with one strong
+    hand, as while a text is edited.
     """
 
     solver: PostureSolver
@@ -56,6 +61,8 @@ class RememberingSolver:
         if question not in self._answers:
             report = self.solver(ik_tasks, start=start, reference=reference, fixed=fixed)
             self._answers[question] = tuple(ik_tasks), report
+            if len(self._answers) > MOST_ANSWERS:
+                del self._answers[next(iter(self._answers))]
             return report
         asked, report = self._answers[question]
         now = dict(zip(asked, ik_tasks, strict=True))

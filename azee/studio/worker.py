@@ -1,0 +1,162 @@
+"""The process that compiles: `python -m azee.studio.worker ROOT [LIBRARY…]`, started by a server.
+
+It reads jobs from standard input and writes answers to standard output, as `framing` says. While it
+works, a thread goes on reading: of one page only the newest text waits, and a text that is being
+compiled is given up when a newer one of the same page comes. It ends when its input does.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from azee.studio.compiling import SupersededError, compiled, evaluated, performed, still
+from azee.studio.framing import Header, packed, read_message
+from azee.studio.job import Job
+from azee.studio.postures import Postures
+from azee_grammar.diagnostic import AZeeError
+from azee_grammar.render import to_json
+
+_PICTURE = (168, 210)
+
+
+class Inbox:
+    """Jobs that wait: the newest text of each page first, then everything else as it came."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._texts: dict[int, Header] = {}
+        self._others: list[Header] = []
+        self.given_up: list[int] = []
+
+    def put(self, message: Header) -> None:
+        """Take a message in; a text of the same page that waits is given up for it."""
+        with self._changed:
+            if message["do"] == "compile":
+                if older := self._texts.pop(message["client"], None):
+                    self.given_up.append(older["job"])
+                self._texts[message["client"]] = message
+            else:
+                self._others.append(message)
+            self._changed.notify()
+
+    def take(self) -> tuple[Header, list[int]]:
+        """Wait for a job; return it, with those that were given up before they began."""
+        with self._changed:
+            while not self._texts and not self._others:
+                self._changed.wait()
+            if self._texts:
+                message = self._texts.pop(next(iter(self._texts)))
+            else:
+                message = self._others.pop(0)
+            gone, self.given_up = self.given_up, []
+            return message, gone
+
+    def newer(self, client: int) -> bool:
+        """Whether a newer text of a page waits."""
+        with self._changed:
+            return client in self._texts
+
+
+class Worker:
+    """Does one job after the other."""
+
+    def __init__(self, root: Path, libraries: Sequence[Path], out: BinaryIO) -> None:
+        self._root, self._libraries, self._out = root, libraries, out
+        self._postures = Postures()
+        self.inbox = Inbox()
+
+    def read(self, stream: BinaryIO) -> None:
+        """Read jobs until the input ends; then end the process, whatever it does."""
+        while (message := read_message(stream)) is not None:
+            self.inbox.put(message[0])
+        os._exit(0)
+
+    def run(self) -> None:
+        """Work for ever."""
+        self._warm_up()
+        self._tell({"kind": "ready"})
+        while True:
+            message, gone = self.inbox.take()
+            for job in gone:
+                self._tell({"kind": "superseded", "job": job, "last": True})
+            self._tell({"kind": "begun", "job": message["job"]})
+            try:
+                self._do(message)
+            except SupersededError:
+                self._end(message, {"kind": "superseded"})
+            except AZeeError as error:
+                found = [to_json(d) for d in error.diagnostics]
+                self._end(message, {"kind": "refused", "diagnostics": found})
+            else:
+                self._end(message, {"kind": "done"})
+
+    def _do(self, message: Header) -> None:
+        match message["do"]:
+            case "compile":
+                self._compile(message)
+            case "export":
+                self._export(message)
+            case "picture":
+                job = Job(**message["what"])
+                data = still(job, self._root, self._libraries, _PICTURE, self._postures)
+                self._tell({"kind": "picture", "job": message["job"]}, data)
+            case "body":
+                self._body(message)
+            case "test-hang":  # what tests ask for, and no page can
+                threading.Event().wait()
+
+    def _compile(self, message: Header) -> None:
+        def check() -> None:
+            if self.inbox.newer(message["client"]):
+                raise SupersededError
+
+        job = Job(**message["what"])
+        answers = compiled(job, self._root, self._libraries, check, self._postures)
+        for header, payload in answers:
+            self._tell({**header, "job": message["job"]}, payload)
+
+    def _export(self, message: Header) -> None:
+        job, path = Job(**message["what"]), Path(message["path"])
+        found, score, program = evaluated(job, self._root, self._libraries)
+        if score is None:
+            raise AZeeError(*found)
+        performed(job, score, program, lambda: None, self._postures).save(path)
+
+    def _body(self, message: Header) -> None:
+        from azee.export.formats.glb import write_body
+        from azee_rig.load import load_rig
+
+        write_body(load_rig(message["rig"]), message["path"])
+
+    def _warm_up(self) -> None:
+        """Load language, body and solver, so that the first text is as quick as others."""
+        job = Job(0, "warm.azee", "key 1\n    place @I_TIP(s) @CH\n")
+        for _ in compiled(job, self._root, self._libraries, lambda: None, self._postures):
+            pass
+
+    def _end(self, message: Header, answer: dict[str, Any]) -> None:
+        number = message.get("what", {}).get("number")
+        self._tell({**answer, "job": message["job"], "number": number, "last": True})
+
+    def _tell(self, header: Header, payload: bytes = b"") -> None:
+        self._out.write(packed(header, payload))
+        self._out.flush()
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Run a worker on this process' own input and output."""
+    out = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what libraries print goes where errors go
+    root, *libraries = map(Path, arguments)
+    worker = Worker(root, libraries, out)
+    threading.Thread(target=worker.read, args=(sys.stdin.buffer,), daemon=True).start()
+    worker.run()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -10,8 +10,8 @@ people do not lean for what their arms can reach, and compiling would not lean e
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -25,19 +25,26 @@ from azee.posing.sites import SiteMap
 from azee_rig.rig import Rig
 from azee_solver import kinematics
 from azee_solver.anatomy import Anatomy, Part, anatomy
-from azee_solver.collisions import Overlap
-from azee_solver.constraint import Constraint, Morph
+from azee_solver.collisions import Obstacles, Overlap
+from azee_solver.constraint import Constraint, Morph, Place
 from azee_solver.footprint import footprint
 from azee_solver.geometry import Site
+from azee_solver.moment import Moment
 from azee_solver.options import SolveOptions
+from azee_solver.relaxed import RelaxedProblem
+from azee_solver.sequence import GroupSequence
 from azee_solver.solve import solve
-from azee_solver.solve_report import SolveReport
 from azee_solver.task import Task
+from azee_solver.widening import least_reach
 
 Array = NDArray[np.float64]
 
-INERTIA = 30.0
-"""As for the paths of `benchmarks.continuity` (ADR 26)."""
+OPTIONS = SolveOptions(far=False, patience=0, inertia=30.0, finish_work=1000, explain=False)
+"""From where the body is, without searching further; inertia as in `benchmarks.continuity`."""
+YIELDING = 0.01
+"""Factor of the weight of what a drag cannot be met with."""
+DEEPER_M = 5e-4
+"""An overlap that grows by less from one frame to the next is the same."""
 TOUCH_M = 0.02
 """A point so near to a site of the skin may be touched there."""
 FIRST = Fraction(-1)
@@ -77,31 +84,104 @@ class DragSolver:
 
         Args: goals: where each handle should be. explain: find out why handles miss; takes longer.
         """
-        instant = self.instant
         began = time.thread_time()
         free, linked = self.linked(frozenset(goals))
         asked = {handle: self._constraint(handle, target) for handle, target in goals.items()}
         skeletal = {h: c for h, c in asked.items() if not self._is_facial(c)}
-        tasks = [
-            *(Task(c, ("drag",), FIRST, rank) for rank, c in enumerate(skeletal.values())),
-            *ik_tasks_at(linked, instant.time),
-        ]
+        beside = ik_tasks_at(linked, self.instant.time)
+        q, overlaps = self._followed(list(skeletal.values()), beside, start, free)
+        if self._entered(overlaps, start, skeletal.values()):
+            kept = [self._kept(c, start) for c in skeletal.values()]
+            q, overlaps = self._followed(kept, beside, start, free)
+            if self._entered(overlaps, start, kept):
+                q, overlaps = np.array(start), []
+        spent_s = time.thread_time() - began
+        reasons = self._reasons(skeletal, beside, q, free) if explain else {}
+        return Dragged(q, self._residuals(asked, q), tuple(overlaps), reasons, spent_s)
+
+    def _followed(
+        self,
+        asked: Sequence[Constraint],
+        beside: Sequence[Task],
+        start: Array,
+        free: frozenset[int],
+    ) -> tuple[Array, list[Overlap]]:
+        """Return the posture that does what is asked, and what of the body overlaps in it.
+
+        These are steps 1 to 5 of the solver. Where what is in force keeps a handle from its target,
+        it gets little weight, and the steps are made once more.
+        """
+        tasks = [*_tasks(asked), *beside]
+        moment = self._moment(tasks, start, free)
+        relaxed, reach = RelaxedProblem(moment), least_reach(moment)
+        sequence = GroupSequence(moment, relaxed)
+        solution = sequence.solve(reach)
+        if beside and any(i < len(asked) for i in solution.missed()):
+            relaxed.given_up |= dict.fromkeys(range(len(asked), len(tasks)), YIELDING)
+            solution = sequence.solve(reach, solution)
+        q = np.clip(solution.q, self._rig.coordinates.lower, self._rig.coordinates.upper)
+        found = self._moving(moment.body.obstacles.overlaps(q), free)
+        return q, [o for o in found if o.depth_m > OPTIONS.overlap_m]
+
+    def _moment(self, tasks: Sequence[Task], start: Array, free: frozenset[int]) -> Moment:
+        fixed = frozenset(range(len(start))) - free
+        dominant = self.instant.evaluator.binding.dominant
+        options = replace(OPTIONS, fixed=fixed)
+        return Moment(self._rig, tasks, dominant, start, self._reference(free), options)
+
+    def _reasons(
+        self,
+        asked: Mapping[Handle, Constraint],
+        beside: Sequence[Task],
+        q: Array,
+        free: frozenset[int],
+    ) -> dict[Handle, str]:
+        """Find out why handles miss their targets, by the whole solver."""
         report = solve(
             self._rig,
-            tasks,
-            dominant=instant.evaluator.binding.dominant,
-            start=start,
+            [*_tasks(asked.values()), *beside],
+            dominant=self.instant.evaluator.binding.dominant,
+            start=q,
             reference=self._reference(free),
-            options=SolveOptions(
-                far=False,
-                patience=0,
-                explain=explain,
-                inertia=INERTIA,
-                fixed=frozenset(range(len(start))) - free,
-            ),
+            options=replace(OPTIONS, explain=True, fixed=frozenset(range(len(q))) - free),
         )
-        spent_s = time.thread_time() - began
-        return self._dragged(skeletal, asked, report, free, spent_s)
+        said = {id(c.task.constraint): c.reason for c in report.constraints if c.reason}
+        return {h: said[id(c)] for h, c in asked.items() if id(c) in said}
+
+    def _entered(
+        self, overlaps: Sequence[Overlap], start: Array, asked: Iterable[Constraint]
+    ) -> bool:
+        """Whether a part that moves has gone deeper into another than it was."""
+        if not overlaps:
+            return False
+        binding = self.instant.evaluator.binding
+        before = Obstacles(binding, self.anatomy, [*asked, *self._others]).overlaps(start)
+        was = {(o.first, o.second): o.depth_m for o in before}
+        return any(o.depth_m > was.get((o.first, o.second), OPTIONS.overlap_m) + DEEPER_M for o in overlaps)
+
+    def _kept(self, constraint: Constraint, start: Array) -> Constraint:
+        """Return what is asked of a posture that may stay where it is.
+
+        A site may be as far from its target as it is, and is drawn there as far as nothing is in
+        the way: so a hand slides along the body.
+        """
+        if not isinstance(constraint, Place):
+            return constraint
+        evaluator = self.instant.evaluator
+        frames = kinematics.frames(self._rig.chain, start)
+        residual, _ = evaluator.residual(constraint, frames, start)
+        return replace(constraint, within_m=float(residual) / evaluator.scale + DEEPER_M)
+
+    @property
+    def _others(self) -> Iterator[Constraint]:
+        return (task.constraint for task in self.instant.tasks)
+
+    def _moving(self, overlaps: Iterable[Overlap], free: frozenset[int]) -> list[Overlap]:
+        """Return those overlaps in which a part is that coordinates move."""
+        moved = self.anatomy.moved_by(free)
+        names, nodes = self._rig.capsules.names, self._rig.capsules.node
+        moving = {name for name, node in zip(names, nodes, strict=True) if moved[node]}
+        return [o for o in overlaps if {o.first, o.second} & moving]
 
     def linked(self, handles: frozenset[Handle]) -> tuple[frozenset[int], tuple[TimedTask, ...]]:
         """Return the coordinates that drags of handles may move, and the tasks that go along.
@@ -171,24 +251,17 @@ class DragSolver:
         binding = self.instant.evaluator.binding
         return isinstance(constraint, Morph) and not binding.is_skeletal(constraint)
 
-    def _dragged(
-        self,
-        skeletal: Mapping[Handle, Constraint],
-        asked: Mapping[Handle, Constraint],
-        report: SolveReport,
-        free: frozenset[int],
-        spent_s: float,
-    ) -> Dragged:
-        residuals = dict.fromkeys(asked, 0.0)
-        reasons = {}
-        for handle, constraint in skeletal.items():
-            found = next(c for c in report.constraints if c.task.constraint is constraint)
-            residuals[handle] = 0.0 if isinstance(constraint, Morph) else found.residual
-            if found.reason:
-                reasons[handle] = found.reason
-        moved = self.anatomy.moved_by(free)
-        names, nodes = self._rig.capsules.names, self._rig.capsules.node
-        moving = {name for name, node in zip(names, nodes, strict=True) if moved[node]}
-        overlaps = tuple(o for o in report.penetration if {o.first, o.second} & moving)
-        return Dragged(report.coordinates, residuals, overlaps, reasons, spent_s)
+    def _residuals(self, asked: Mapping[Handle, Constraint], q: Array) -> dict[Handle, float]:
+        evaluator = self.instant.evaluator
+        frames = kinematics.frames(self._rig.chain, q)
+        return {
+            handle: 0.0
+            if isinstance(constraint, Morph)
+            else float(evaluator.residual(constraint, frames, q)[0])
+            for handle, constraint in asked.items()
+        }
 
+
+def _tasks(asked: Iterable[Constraint]) -> list[Task]:
+    """Return what is dragged as tasks, before all others."""
+    return [Task(constraint, ("drag",), FIRST, rank) for rank, constraint in enumerate(asked)]

@@ -36,8 +36,10 @@ class ItemText:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Edited:
-    """A text after an edit. change: what became of the text before. gone: comments that the edit
-    took away, because they stood inside what it took away."""
+    """A text after an edit.
+
+    change: what became of the text before. gone: comments that stood inside what was taken away.
+    """
 
     document: Document
     change: TextChange
@@ -132,13 +134,14 @@ class Document:
         Raises: AZeeError: the edit is impossible, or what it would make cannot be read.
         """
         tree = edited(self.nodes, edit)
+        gone: tuple[str, ...] = ()
         match edit:
             case Insert((), row, _):
-                text, gone = self._with_items(row, tree), ()
+                text = self._with_items(row, tree)
             case Delete((), row):
                 text, gone = self._without_item(row)
             case Move((), row, (), to_row):
-                text, gone = self._with_moved_item(row, to_row), ()
+                text = self._with_moved_item(row, to_row)
             case _:
                 text, gone = self._with_changed_items(edit, tree)
         document = Document.of(text, self.source.name)

@@ -82,16 +82,13 @@ def _edited(items: Items, edit: Edit) -> EditedTree:
         case Insert((), row, text):
             new = read_fragment(text)
             _require(0 <= row <= len(items))
-            return EditedTree(
-                (*items[:row], *new.items, *items[row:]), sources=(new.source,)
-            )
+            return EditedTree((*items[:row], *new.items, *items[row:]), sources=(new.source,))
         case Insert(path, row, text):
             source, operands = read_operands(text)
             at = _offset(_application(items, path), row)
             return EditedTree(_inserted(items, path, at, operands), sources=(source,))
         case Delete((), row):
-            gone = _item(items, row)
-            return EditedTree((*items[:row], *items[row + 1 :]), (gone.span,))
+            return EditedTree((*items[:row], *items[row + 1 :]), (_item(items, row).span,))
         case Delete(path, row):
             node = _application(items, path)
             gone = _row(node, row)
@@ -101,9 +98,9 @@ def _edited(items: Items, edit: Edit) -> EditedTree:
         case Move((), row, (), to_row):
             item = _item(items, row)
             _require(0 <= to_row <= len(items))
-            left = (*items[:row], *items[row + 1 :])
+            others = (*items[:row], *items[row + 1 :])
             to_row -= to_row > row
-            return EditedTree((*left[:to_row], item, *left[to_row:]))
+            return EditedTree((*others[:to_row], item, *others[to_row:]))
         case Move(path, row, to_path, to_row):
             return EditedTree(_moved(items, path, row, to_path, to_row))
         case Rename(path, name, slot):
@@ -259,9 +256,7 @@ def _wrapped(items: Items, path: Path, around: Fragment) -> EditedTree:
     kept, expr = _expression(items, path), around.expression
     holes = list(_holes(expr, ()))
     if len(holes) != 1:
-        raise AZeeError(
-            cannot_edit("one hole, `?it`, is expected here", around.source.text)
-        )
+        raise AZeeError(cannot_edit("one hole, `?it`, is expected here", around.source.text))
     (whole,) = with_node((as_item(expr),), (0, *holes[0]), kept)
     assert whole is not None
     return EditedTree(with_node(items, path, content(whole)), (), (around.source,))
@@ -271,4 +266,3 @@ def _holes(node: Expr, path: Path) -> list[Path]:
     if isinstance(node, Hole):
         return [path]
     return [hole for i, child in enumerate(children(node)) for hole in _holes(child, (*path, i))]
-

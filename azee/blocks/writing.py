@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from azee.blocks.comments import Comment, Key, Note, Notes, key
+from azee.blocks.comments import Comment, Key, Note, key
 from azee.blocks.tree import Operand
 from azee_grammar.format import format_file
 from azee_grammar.source import Source, Span

@@ -33,8 +33,8 @@ SHOWN = 8
     type=(str, float, float, float),
     multiple=True,
     metavar="PART X Y Z",
-    help="A site, such as \"I_TIP(s)\", or the `gaze`, to a point in metres: left, up and forward "
-    "of the signer's feet; or a bone, such as \"!palm(s)\" or \"nrm !palm(s)\", along a direction. "
+    help='A site, such as "I_TIP(s)", or the `gaze`, to a point in metres: left, up and forward '
+    'of the signer\'s feet; or a bone, such as "!palm(s)" or "nrm !palm(s)", along a direction. '
     "Repeatable.",
 )
 @click.option(
@@ -53,7 +53,7 @@ SHOWN = 8
     type=(str, float),
     multiple=True,
     metavar="NAME WEIGHT",
-    help="A shape of the face, such as \"'AU12\", or of a finger, such as \"'index_bend s\". "
+    help='A shape of the face, such as "\'AU12", or of a finger, such as "\'index_bend s". '
     "Repeatable.",
 )
 @click.option(
@@ -98,12 +98,17 @@ def pose(
 
     Exit codes: 0 done, 1 mistakes or nothing that can be done, 2 wrong use.
     """
+    from azee.posing.handle import checked_target
     from azee.posing.session import PosingSession
 
     if not (drags or moves or morphs):
         raise click.UsageError("say what to drag: --drag, --by or --morph")
     if chosen is not None and file == "-":
         raise click.UsageError("--apply writes into FILE, and standard input is none")
+    for part, *target in (*drags, *moves):
+        checked_target(part, target, weight=False)
+    for name, weight in morphs:
+        checked_target(name, (weight,), weight=True)
     body = load_body(rig)
     with working("Solving …"):
         session = PosingSession.open(

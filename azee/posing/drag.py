@@ -26,6 +26,7 @@ from azee_rig.rig import Rig
 from azee_solver import kinematics
 from azee_solver.anatomy import Anatomy, Part, anatomy
 from azee_solver.collisions import Obstacles, Overlap
+from azee_solver.comfort import MARGIN_RAD
 from azee_solver.constraint import Constraint, Morph, Place
 from azee_solver.footprint import footprint
 from azee_solver.geometry import Site
@@ -39,14 +40,16 @@ from azee_solver.widening import least_reach
 
 Array = NDArray[np.float64]
 
-OPTIONS = SolveOptions(far=False, patience=0, inertia=30.0, finish_work=1000, explain=False)
-"""From where the body is, without searching further; inertia as in `benchmarks.continuity`."""
+OPTIONS = SolveOptions(far=False, patience=0, inertia=30.0, explain=False)
+"""From where the body is, without a search; inertia as in `benchmarks.continuity` (ADR 26)."""
 YIELDING = 0.01
 """Factor of the weight of what a drag cannot be met with."""
 DEEPER_M = 5e-4
 """An overlap that grows by less from one frame to the next is the same."""
 TOUCH_M = 0.02
 """A point so near to a site of the skin may be touched there."""
+AHEAD = (0.0, 0.0, 1.0)
+"""A point or direction that stands for any."""
 FIRST = Fraction(-1)
 """When what is dragged starts, for the order of constraints: before all others."""
 
@@ -127,7 +130,22 @@ class DragSolver:
         fixed = frozenset(range(len(start))) - free
         dominant = self.instant.evaluator.binding.dominant
         options = replace(OPTIONS, fixed=fixed)
-        return Moment(self._rig, tasks, dominant, start, self._reference(free), options)
+        moment = Moment(self._rig, tasks, dominant, start, self._reference(free), options)
+        moment.body.limits = self._comfortable(moment.start)
+        return moment
+
+    def _comfortable(self, start: Array) -> tuple[Array, Array]:
+        """Return limits of the coordinates, (V,) each, a little short of the body's.
+
+        Compiling would go as far for comfort's sake, and not to the limits themselves. Where the
+        body is farther already, it need not come back.
+        """
+        coordinates = self._rig.coordinates
+        narrow = coordinates.upper - coordinates.lower < 2.0 * MARGIN_RAD
+        short = np.where(narrow, 0.0, MARGIN_RAD)
+        short[sorted(self.anatomy.of(Part.HAND, Part.EYES))] = 0.0
+        lower = np.minimum(coordinates.lower + short, start)
+        return lower, np.maximum(coordinates.upper - short, start)
 
     def _reasons(
         self,
@@ -157,7 +175,9 @@ class DragSolver:
         binding = self.instant.evaluator.binding
         before = Obstacles(binding, self.anatomy, [*asked, *self._others]).overlaps(start)
         was = {(o.first, o.second): o.depth_m for o in before}
-        return any(o.depth_m > was.get((o.first, o.second), OPTIONS.overlap_m) + DEEPER_M for o in overlaps)
+        return any(
+            o.depth_m > was.get((o.first, o.second), OPTIONS.overlap_m) + DEEPER_M for o in overlaps
+        )
 
     def _kept(self, constraint: Constraint, start: Array) -> Constraint:
         """Return what is asked of a posture that may stay where it is.
@@ -212,7 +232,7 @@ class DragSolver:
 
     def _own(self, handle: Handle) -> frozenset[int]:
         """Coordinates of the limbs that a handle is on, without the trunk that carries them."""
-        example = constraint_of(handle, (1.0,) if isinstance(handle, MorphHandle) else (0.0, 0.0, 1.0))
+        example = constraint_of(handle, (1.0,) if isinstance(handle, MorphHandle) else AHEAD)
         if self._is_facial(example):
             return frozenset()
         binding = self.instant.evaluator.binding
@@ -223,9 +243,7 @@ class DragSolver:
         return carried or movers
 
     def _constraint(self, handle: Handle, target: Target) -> Constraint:
-        touching = ()
-        if isinstance(handle, SiteHandle):
-            touching = self.touched(handle, target)
+        touching = self.touched(handle, target) if isinstance(handle, SiteHandle) else ()
         return constraint_of(handle, target, touching)
 
     def touched(self, handle: SiteHandle, target: Target) -> tuple[Site, ...]:

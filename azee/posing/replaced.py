@@ -27,7 +27,7 @@ def is_replaced(constraint: Constraint, handle: Handle, binding: Binding) -> boo
     match handle, constraint:
         case SiteHandle(site), Place(site=other):
             one, two = (binding.site(s).bone for s in (site, other))
-            return one == two or _hand(one) is not None and _hand(one) == _hand(two)
+            return one == two or (_hand(one) is not None and _hand(one) == _hand(two))
         case BoneHandle(bone, axis), Orient(axis=other_axis, bone=other_bone):
             dominant = binding.dominant
             return axis is other_axis and bone.key(dominant) == other_bone.key(dominant)

@@ -151,9 +151,12 @@ class PointNamer:
         offset = (point - self._evaluator.point(base, self._frames)) / self._evaluator.scale
         right = self._evaluator.binding.dominant is Side.RIGHT
         outwards = -offset[0] if right else offset[0]
-        parts = [(offset[1], UP, DOWN), (offset[2], FORWARD, BACK)]
         sideways: Vector = Out(Side.STRONG)
-        parts.append((outwards, sideways, Opp(sideways)))
+        parts: list[tuple[float, Vector, Vector]] = [
+            (offset[1], UP, DOWN),
+            (offset[2], FORWARD, BACK),
+            (outwards, sideways, Opp(sideways)),
+        ]
         steps = [
             Scale(there if length > 0 else back, round(round(abs(length) / STEP_M) * STEP_M, 4))
             for length, there, back in parts

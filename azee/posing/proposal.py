@@ -24,6 +24,7 @@ from azee.posing.handshapes import shape_names
 from azee.posing.instant import Instant
 from azee.posing.moving_rules import of_rules
 from azee.posing.names import PointName, PointNamer, direction_names, in_azee, rounded
+from azee.posing.replaced import is_same
 from azee.posing.sites import SiteMap
 from azee.posing.spots import (
     Spot,
@@ -37,7 +38,7 @@ from azee.posing.text import PosedText
 from azee_grammar.diagnostic import AZeeError
 from azee_solver import kinematics
 from azee_solver.binding import EYES, Binding
-from azee_solver.constraint import Place
+from azee_solver.constraint import Constraint, Morph, Place
 from azee_solver.evaluate import angle
 from azee_solver.geometry import Side, Vec
 from azee_solver.notation import number_text, part_text, vector_text
@@ -193,6 +194,12 @@ class Proposing:
 
     def _spots(self, handle: Handle) -> Iterator[Spot]:
         own, foreign = in_force(self._text, self._instant, handle)
+        if isinstance(handle, MorphHandle):
+            # Weights add up: beside another morph of the same part there is nothing to write.
+            others = bool(own or foreign)
+            own, foreign = [(t, p) for t, p in own if self._is_same(handle, t.constraint)], []
+            if others and not own:
+                return
         if own:
             yield replacing(self._text, handle, *own[0])
         elif foreign:
@@ -200,6 +207,10 @@ class Proposing:
         else:
             yield from beside_others(self._text, self._instant, handle)
             yield new_block(self._text, self._instant)
+
+    def _is_same(self, handle: MorphHandle, constraint: Constraint) -> bool:
+        binding = self._evaluator.binding
+        return isinstance(constraint, Morph) and is_same(handle, constraint, binding)
 
     def _namings(self, spot: Spot, handle: Handle, target: Target) -> Iterator[Naming]:
         if spot.wants != "constraint":

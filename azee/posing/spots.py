@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -90,25 +91,23 @@ def replacing(text: PosedText, handle: Handle, task: TimedTask, path: Path) -> S
     line = document.source.position(node_at(document.nodes, path).span.start)[0]
     inside = _definition(document, path)
     where = f"instead of `{subject_text(task.constraint)} …` in line {line}"
-    return Spot(
-        "replace", where + inside, _editing(document, lambda t: Replace(path, t)), task=task
-    )
+    write = _editing(document, partial(Replace, path))
+    return Spot("replace", where + inside, write, task=task)
 
 
 def _weight(document: Document, path: Path, handle: MorphHandle) -> Path:
     """Return the path of the weight of a morph, in a `morph` that may have several."""
     node = node_at(document.nodes, path)
     assert isinstance(node, Application)
+    names = (handle.name, f"{handle.name}_L", f"{handle.name}_R")
     for i, operand in enumerate(node.operands):
-        if isinstance(operand, Symbol) and operand.name.startswith(handle.name):
+        if isinstance(operand, Symbol) and operand.name in names:
             return (*path, i + 1 + isinstance(node.operands[i + 1], SideWord))
     return path
 
 
 def beside_others(text: PosedText, instant: Instant, handle: Handle) -> Iterator[Spot]:
     """Yield the spot among constraints that the text has itself and that are in force."""
-    if isinstance(handle, MorphHandle) and _has_foreign_shape(text, instant, handle):
-        return
     own = [
         (task, path)
         for constraint, task in instant.constraints
@@ -132,11 +131,6 @@ def beside_others(text: PosedText, instant: Instant, handle: Handle) -> Iterator
         yield Spot("beside", where, _editing(document, edit), cost=0.2)
 
 
-def _has_foreign_shape(text: PosedText, instant: Instant, handle: MorphHandle) -> bool:
-    """Whether a rule of a library shapes the same part already: weights would add up."""
-    return bool(in_force(text, instant, handle)[1])
-
-
 def instead_of_shape(text: PosedText, instant: Instant, handle: MorphHandle) -> Iterator[Spot]:
     """Yield the spots of posture rules in the text that shape the same hand then."""
     document = text.document
@@ -154,8 +148,7 @@ def instead_of_shape(text: PosedText, instant: Instant, handle: MorphHandle) -> 
         if shapes & own and shapes <= now:
             line = document.source.position(node.span.start)[0]
             where = f"instead of `{one_line(node)}` in line {line}{_definition(document, path)}"
-            edit = _editing(document, lambda written, path=path: Replace(path, written))
-            yield Spot("replace", where, edit)
+            yield Spot("replace", where, _editing(document, partial(Replace, path)))
 
 
 def _is_posture(node: Application) -> bool:

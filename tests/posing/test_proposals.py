@@ -117,7 +117,7 @@ def test_where_nothing_is_in_force_a_block_is_added(signer: Rig) -> None:
     session = PosingSession.open("# a fist\nkey .5 :#fist  # closed\n", 0.25, signer)
     there = dragged_by(session, "@PA(s)", (0.05, 0.25, 0.2))
     exact = of_kind(session.proposals(), "block")
-    assert exact.document.text.startswith("# a fist\nsync\n    'SIG key .5 :#fist  # closed\n")
+    assert exact.document.text.startswith("# a fist\nsync\n    'SIG (key .5 :#fist)  # closed\n")
     again = session.opened_with(exact)
     assert np.linalg.norm(place_of(again, "@PA(s)") - there) < EXACT_M
 

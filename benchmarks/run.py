@@ -25,6 +25,7 @@ MODULES = {
     "threads": "benchmarks.threads",
     "memory": "benchmarks.memory",
     "continuity": "benchmarks.continuity",
+    "posing": "benchmarks.posing",
     "penetration": "benchmarks.penetration",
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",

@@ -33,6 +33,11 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.score.recorded_motion": {"azee.clip", "azee_rig"},
     "azee.score.articulators": {"azee_grammar"} | DECLARATIONS,
     "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
+    "azee.blocks": {"azee_grammar"},
+    "azee.posing": {
+        *("azee.blocks", "azee.compilation", "azee.lang", "azee.motion.tasks", "azee.score"),
+        *("azee_grammar", "azee_rig", "azee_solver", "numpy"),
+    },
     "azee.corpus": {"azee.lang", "azee.export.files", "azee.wording", "matplotlib", "pympi"},
     "azee.assist": {"azee_grammar", "azee.lang", "azee.score"} | DECLARATIONS,
     "azee.clip": {"azee_rig", "numpy"},

@@ -188,9 +188,13 @@ def still(
     root: Path,
     libraries: Sequence[Path],
     size: tuple[int, int],
+    check: Callable[[], None],
     postures: Postures,
 ) -> bytes:
-    """Return a picture (PNG) of the most telling posture of a job. Raises: AZeeError."""
+    """Return a picture (PNG) of a posture in the middle of a job.
+
+    Raises: AZeeError: the text has mistakes. And what `check` raises.
+    """
     import io
 
     from azee.export.pictures.picture import picture
@@ -198,7 +202,7 @@ def still(
     found, score, program = evaluated(job, root, libraries)
     if score is None:
         raise AZeeError(*found)
-    made = performed(job, score, program, lambda: None, postures)
+    made = performed(job, score, program, check, postures)
     clip = made.clip
     blocks = made.animation.key_times
     inside = [t for t in blocks if t >= made.animation.lead_s] or [clip.duration_s / 2]

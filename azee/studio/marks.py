@@ -28,7 +28,9 @@ MOST_MARKED = 2_000
 """Constraints of one movement."""
 
 
-def marks(score: Score, clip: Clip, rig: Rig, dominant: Side, lead_s: float) -> list[dict[str, Any]]:
+def marks(
+    score: Score, clip: Clip, rig: Rig, dominant: Side, lead_s: float
+) -> list[dict[str, Any]]:
     """Return the marks of a movement, a row per constraint that has a place on the body.
 
     A row has the `path` of its block, the constraint's `text`, and `marks` at some times of the
@@ -71,7 +73,10 @@ def _of(
     try:
         match constraint:
             case Place():
-                at, goal = body.site(constraint.site, frames), body.target(constraint, frames, phase)
+                at, goal = (
+                    body.site(constraint.site, frames),
+                    body.target(constraint, frames, phase),
+                )
                 yield from _mark(None, at, goal)
             case Orient(axis, bone, relation, vector):
                 base = frames.positions[body.binding.bone(bone).origin_node]

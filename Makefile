@@ -7,10 +7,10 @@ ENV := .venv
 BIN := $(ENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 RUN := $(BIN)/python
 READY := $(ENV)/.ready
-PACKAGES := tests/node/node_modules/.package-lock.json
+PACKAGES := $(patsubst %,%/node_modules/.package-lock.json,tests/node azee/web)
 TYPED := tests benchmarks examples
 
-.PHONY: mutants families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
+.PHONY: web mutants families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -96,12 +96,15 @@ families-table: $(READY) ## try three examples on bodies of many makers, into do
 wheel-test: $(READY) node ## run the fast tests against the built wheel, outside the checkout
 	@bash tests/project/wheel.sh $(RUN)
 
-node: ## install the packages of the tests that need Node, if it is there
+node: ## install the packages of the pages and of the tests that need Node, if it is there
 	@if command -v npm >/dev/null; then $(MAKE) --no-print-directory $(PACKAGES) || \
 		echo "The Node packages could not be installed: their tests are skipped" >&2; fi
 
-$(PACKAGES): tests/node/package-lock.json
-	@npm ci --silent --prefix tests/node && touch $@
+web: $(PACKAGES) ## build the pages of azee/web into azee/web/dist
+	@npm run --silent build --prefix azee/web
+
+$(PACKAGES): %/node_modules/.package-lock.json: %/package-lock.json
+	@npm ci --silent --prefix $* && touch $@
 
 $(READY): pyproject.toml constraints.txt
 	@test -n "$(PYTHON)" || { echo "azee needs Python 3.11 or newer; none was found" >&2; exit 1; }

@@ -13,7 +13,7 @@ from uuid import uuid4
 
 import pytest
 from hypothesis import HealthCheck, settings
-from programs import NODE_FOLDER, Node, Python
+from programs import NODE_FOLDER, WEB_FOLDER, Node, Python
 from servers import NoServerError, postgresql_server
 
 if TYPE_CHECKING:
@@ -63,6 +63,14 @@ def python(tmp_path: Path) -> Python:
 def node() -> Node:
     """Node with the packages of tests/node."""
     return Node(_program(("node",), "Node"))
+
+
+@pytest.fixture(scope="session")
+def web(node: Node) -> Node:
+    """Node with the packages that build the pages of azee/web."""
+    if not (WEB_FOLDER / "node_modules" / "vite").exists():
+        _missing("the packages of azee/web are not installed: `make node`")
+    return node.in_folder(WEB_FOLDER)
 
 
 @pytest.fixture(scope="session")

@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 NODE_FOLDER = Path(__file__).parent / "node"
+WEB_FOLDER = Path(__file__).parents[1] / "azee" / "web"
 
 
 @dataclass(frozen=True)
@@ -44,16 +45,21 @@ class Python:
 
 @dataclass(frozen=True)
 class Node:
-    """Runs the scripts of tests/node."""
+    """Runs the scripts of a folder, which is tests/node."""
 
     program: str
     chromium: str | None = None
+    folder: Path = NODE_FOLDER
+
+    def in_folder(self, folder: Path) -> Node:
+        """Return the same program for the scripts of another folder."""
+        return replace(self, folder=folder)
 
     def __call__(self, script: str, *arguments: str | Path) -> str:
         """Return what the script prints; fails with its error output."""
         done = subprocess.run(
             [self.program, script, *map(str, arguments)],
-            cwd=NODE_FOLDER,
+            cwd=self.folder,
             env=os.environ | {"CHROMIUM": self.chromium or ""},
             capture_output=True,
             text=True,

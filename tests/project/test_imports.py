@@ -116,6 +116,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
     "azee.cli": {*OURS, "click", "rich", "platformdirs", "sqlalchemy"},
     "azee.cli.study": {*OURS, "click", "uvicorn"},
+    "azee.web": set(),
+    "azee.webserver": {"starlette", "uvicorn"},
     "azee": OURS,
 }
 """By the longest prefix of the importing module. A package may always import from itself."""

@@ -27,6 +27,7 @@ HEAVY = (
     "starlette",
     "sqlalchemy",
     "trimesh",
+    "uvicorn",
 )
 SCRIPT = """
 import json, sys

@@ -25,6 +25,8 @@ def test_the_wheel_holds_four_packages_with_their_data(tmp_path: Path) -> None:
     assert tops == {"azee", "azee_grammar", "azee_rig", "azee_solver"}
     for name in (
         "azee/py.typed",
+        "azee/web/dist/player.html",
+        "azee/web/dist/vendor-three.js",
         "azee/spelling/study/templates/page.html",
         "azee/spelling/timing/data/normal.json",
         "azee_grammar/azee.lark",
@@ -34,5 +36,6 @@ def test_the_wheel_holds_four_packages_with_their_data(tmp_path: Path) -> None:
         "azee_rig/data/signer/mesh.npz",
     ):
         assert name in names
+    assert not any(name.startswith("azee/web/src") for name in names)
     assert any(n.endswith("licenses/LICENSE") for n in names)
     assert any(n.endswith("licenses/NOTICE") for n in names)

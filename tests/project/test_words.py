@@ -60,6 +60,8 @@ ALLOWED: Mapping[str, Sequence[str]] = {
 """Where a word has another meaning."""
 
 PAGES = ("*.md", "docs", "editors", "examples")
+BUILT = ROOT / "azee" / "web" / "dist"
+"""Scripts that are built hold libraries of others."""
 SOURCES = ("azee", "benchmarks", "grammar", "rig", "solver", "docs", "examples")
 
 
@@ -108,8 +110,9 @@ def names(text: str) -> Iterator[tuple[int, str]]:
 def texts() -> list[Path]:
     """Pages and sources that are read by people."""
     pages = [p for p in _listed(*PAGES) if p.suffix == ".md"]
-    sources = [p for p in _listed(*SOURCES) if p.suffix in (".py", ".js")]
-    return [path for path in dict.fromkeys((*pages, *sources)) if path.is_file()]
+    sources = [p for p in _listed(*SOURCES) if p.suffix in (".py", ".js", ".ts")]
+    written = (path for path in dict.fromkeys((*pages, *sources)) if BUILT not in path.parents)
+    return [path for path in written if path.is_file()]
 
 
 def test_no_private_word_stands_in_a_text() -> None:

@@ -1,0 +1,1 @@
+"""The pages of azee, built by Vite into `dist`; azee/web/README.md says how."""

@@ -1,6 +1,6 @@
 """The studio as an application: the page, its files, bodies, pictures, exports, the live socket.
 
-docs/studio-protocol.md lists all addresses. `Guard` stands before all of it.
+docs/studio-protocol.md lists all addresses. `azee.webserver.guard` stands before all of it.
 """
 
 from __future__ import annotations
@@ -21,19 +21,16 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
-from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
 from azee.formats import FILM_SUFFIXES, WRITERS
 from azee.studio.folder import FILM_SUFFIXES as SHOWN_FILMS
 from azee.studio.folder import LARGEST_TEXT, ConflictError, RefusedError
-from azee.studio.guard import Guard
 from azee.studio.live import Live
 from azee.studio.palette import palette
 from azee.studio.workspace import Workspace
+from azee.web.bundle import DIST
 
-PAGES = Path(__file__).parents[1] / "web" / "dist"
-"""The built page; `azee/web` has its sources."""
 _KEPT = {"Cache-Control": "max-age=86400, immutable"}
 _FRESH = {"Cache-Control": "no-store"}
 _MEDIA = {".mp4": "video/mp4", ".webm": "video/webm", ".ogv": "video/ogg"} | {
@@ -42,8 +39,8 @@ _MEDIA = {".mp4": "video/mp4", ".webm": "video/webm", ".ogv": "video/ogg"} | {
 Handler = Callable[[Request], Awaitable[Response]]
 
 
-def studio_app(workspace: Workspace, token: str, port: int) -> ASGIApp:
-    """Return the application for a server that listens on `port` of this machine."""
+def studio_app(workspace: Workspace) -> Starlette:
+    """Return the application; it starts the compiler, and closes the workspace at its end."""
     addresses = _Addresses(workspace)
 
     async def live(socket: WebSocket) -> None:
@@ -70,13 +67,12 @@ def studio_app(workspace: Workspace, token: str, port: int) -> ASGIApp:
         Route("/body/{name}.glb", addresses.body),
         Route("/film", addresses.film),
         WebSocketRoute("/live", live),
-        Mount("/", StaticFiles(directory=PAGES, check_dir=False)),
+        Mount("/", StaticFiles(directory=DIST)),
     ]
     handlers: Mapping[Any, Any] = {
         RefusedError: _refused, HTTPException: _problem, ClientDisconnect: _gone
     }  # fmt: skip
-    app = Starlette(routes=routes, exception_handlers=handlers, lifespan=lifespan)
-    return Guard(app, token, port)
+    return Starlette(routes=routes, exception_handlers=handlers, lifespan=lifespan)
 
 
 class _Addresses:
@@ -86,10 +82,7 @@ class _Addresses:
 
     async def page(self, request: Request) -> Response:
         """Send the page."""
-        path = PAGES / "studio.html"
-        if not path.is_file():
-            raise RefusedError(404, "the page is not built: `npm run build` in azee/web builds it")
-        return FileResponse(path, headers=_FRESH)
+        return FileResponse(DIST / "studio.html", headers=_FRESH)
 
     async def files(self, request: Request) -> Response:
         """List texts, films, bodies and formats."""

@@ -153,7 +153,7 @@ class Compiler:
         await process.wait()
 
     def _answered(self, header: Header, payload: bytes) -> None:
-        number = header.get("job")
+        number = header.pop("job", None)
         if header["kind"] == "ready":
             self._limit(None)
             return
@@ -168,7 +168,8 @@ class Compiler:
                 self._limit(None)
             self._pending.pop(number, None)
         if pending:
-            pending.deliver({k: v for k, v in header.items() if k != "job"}, payload)
+            number = pending.message.get("what", {}).get("number")
+            pending.deliver({"number": number, **header}, payload)
 
     def _limit(self, seconds: float | None) -> None:
         """Kill the worker if nothing changes within some seconds."""

@@ -166,8 +166,7 @@ class Worker:
         gc.set_threshold(50_000, 20, 20)
 
     def _end(self, message: Header, answer: dict[str, Any]) -> None:
-        number = message.get("what", {}).get("number")
-        self._tell({**answer, "job": message["job"], "number": number, "last": True})
+        self._tell({**answer, "job": message["job"], "last": True})
 
     def _tell(self, header: Header, payload: bytes = b"") -> None:
         self._out.write(packed(header, payload))

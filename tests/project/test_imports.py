@@ -116,6 +116,12 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
     "azee.cli": {*OURS, "click", "rich", "platformdirs", "sqlalchemy"},
     "azee.cli.study": {*OURS, "click", "uvicorn"},
+    "azee.studio": {
+        *(OURS - {"azee"}),
+        *("azee.animation", "azee.assist", "azee.clip", "azee.compilation", "azee.export"),
+        *("azee.formats", "azee.lang", "azee.lsp", "azee.motion", "azee.score", "azee.web"),
+        *("azee.webserver", "numpy", "starlette"),
+    },
     "azee.web": set(),
     "azee.webserver": {"starlette", "uvicorn"},
     "azee": OURS,

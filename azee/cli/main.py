@@ -16,6 +16,7 @@ from typing import NoReturn
 
 import click
 
+from azee.cli.blocks import blocks
 from azee.cli.check import check
 from azee.cli.clip import clip
 from azee.cli.compile import compile_
@@ -29,6 +30,7 @@ from azee.cli.gloss import gloss
 from azee.cli.lexicon import lexicon
 from azee.cli.lsp import lsp
 from azee.cli.manifest import manifest
+from azee.cli.pose import pose
 from azee.cli.render import render
 from azee.cli.repl import repl
 from azee.cli.retarget import retarget
@@ -53,7 +55,9 @@ def azee() -> None:
 azee.add_command(compile_)
 azee.add_command(check)
 azee.add_command(fmt)
+azee.add_command(blocks)
 azee.add_command(score)
+azee.add_command(pose)
 azee.add_command(render)
 azee.add_command(clip)
 azee.add_command(find)

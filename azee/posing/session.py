@@ -1,0 +1,281 @@
+"""An interactive session on a compiled score at one instant: drag, propose, write.
+
+    session = PosingSession.open("hello.azee", at_s=0.6)
+    session.drag("@I_TIP(s)", (0.1, 1.2, 0.3))   # a frame, thirty times a second or more
+    for proposal in session.proposals():
+        print(proposal.written, proposal.fixes)
+    text = session.proposals()[0].document.text
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.blocks.document import Document
+from azee.compilation import Compilation, Hand, compile
+from azee.posing.drag import Dragged, DragSolver
+from azee.posing.fault import cannot_pose
+from azee.posing.handle import Handle, MorphHandle, SiteHandle, Target, read_handle
+from azee.posing.instant import Instant
+from azee.posing.proposal import Proposal, Proposing
+from azee.posing.text import PosedText
+from azee_grammar.diagnostic import AZeeError
+from azee_grammar.files import read_source
+from azee_rig.rig import Rig
+from azee_solver import kinematics
+from azee_solver.body_words import capsule_words
+from azee_solver.constraint import Morph
+from azee_solver.geometry import Side
+
+Array = NDArray[np.float64]
+
+FARTHEST_M = 5.0
+"""No drag goes beyond this; a screen has an edge."""
+MET_M, MET_RAD = 1e-3, math.radians(0.5)
+"""What counts as there."""
+HEAVIEST = 2.0
+"""The greatest weight of a morph, to either side."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frame:
+    """What a screen shows after a drag.
+
+    q: (V,) radians. unit_weights: of the face. handle: what was dragged. place: (3,) where its site
+    or None. miss: how far it is from its target, metres or radians. blocked: what is in the way, in
+    words. reason: why it misses, where that was asked for. solve_s: processor time.
+    """
+
+    rig: Rig
+    q: Array
+    unit_weights: dict[str, float]
+    handle: Handle
+    place: tuple[float, float, float] | None
+    miss: float
+    blocked: tuple[str, ...]
+    reason: str | None
+    solve_s: float
+
+    @property
+    def summary(self) -> str:
+        """How far it is from its target and why, in words; empty if it is there."""
+        parts = []
+        if self.place is not None and self.miss > MET_M:
+            parts.append(f"{self.miss * 1000:.0f} mm from its target")
+        elif self.place is None and self.miss > MET_RAD:
+            parts.append(f"{math.degrees(self.miss):.1f}° from its target")
+        parts += [self.reason] if self.reason else []
+        parts += self.blocked
+        return "; ".join(parts)
+
+    def as_json(self) -> dict[str, object]:
+        """Return it as plain data; rotations xyzw of all joints, in the order of the skeleton."""
+        wxyz = self.rig.pose(self.q).rotations
+        return {
+            "handle": str(self.handle),
+            "rotations": np.roll(wxyz, -1, axis=-1).round(6).tolist(),
+            "weights": {name: round(w, 4) for name, w in self.unit_weights.items() if w},
+            "place": None if self.place is None else [*self.place],
+            "miss": self.miss,
+            "blocked": [*self.blocked],
+            "reason": self.reason,
+            "solve_ms": self.solve_s * 1e3,
+        }
+
+
+class PosingSession:
+    """Holds what was dragged so far, and the posture that came of it."""
+
+    def __init__(self, text: PosedText, made: Compilation, at_s: float) -> None:
+        """Begin at an instant of a compiled text, seconds on the score's time line.
+
+        Raises: AZeeError: cannot-pose: there is no such instant.
+        """
+        self.text, self.made, self.at_s = text, made, at_s
+        self.instant = Instant.of(made, at_s, _side(text.dominant))
+        self._solver = DragSolver(self.instant)
+        self._goals: dict[Handle, Target] = {}
+        self._q: Array = np.array(self.instant.q)
+
+    @classmethod
+    def open(
+        cls,
+        text_or_path: str | Path,
+        at_s: float,
+        rig: str | Path | Rig = "signer",
+        *,
+        utterance: int | None = None,
+        libraries: Sequence[str | Path] = (),
+        dominant: Hand = "right",
+    ) -> PosingSession:
+        """Compile a text and begin; the arguments are those of `azee.compile`.
+
+        Raises: AZeeError: the text has mistakes; cannot-pose: there is no such instant.
+        """
+        made = compile(
+            text_or_path, rig, utterance=utterance, libraries=libraries, dominant=dominant
+        )
+        found = tuple(map(Path, libraries))
+        return cls(PosedText(_document(text_or_path), found, utterance, dominant), made, at_s)
+
+    # Dragging ---------------------------------------------------------------------------------
+
+    def drag(self, handle: Handle | str, target: Sequence[float], *, explain: bool = False) -> Frame:
+        """Drag a handle to a target, and return what the screen shows then.
+
+        Args: target: of a site or of the gaze a point, (3,) metres in the world; of a bone a
+            direction, (3,); of a morph a weight, (1,). explain: say why it misses; takes longer.
+        Raises: AZeeError: cannot-pose: it is no such target.
+        """
+        known = self.handle(handle)
+        self._goals[known] = _checked(known, target)
+        done = self._solve(explain=explain)
+        return self._frame(known, done)
+
+    def drag_by(
+        self, handle: Handle | str, offset: Sequence[float], *, explain: bool = False
+    ) -> Frame:
+        """Drag a site by an offset, (3,) metres, from where it is now."""
+        known = self.handle(handle)
+        if not isinstance(known, SiteHandle):
+            raise AZeeError(cannot_pose(f"`{known}` is no site, and only sites are moved by metres"))
+        frames = kinematics.frames(self._rig.chain, self._q)
+        there = self.instant.evaluator.site(known.site, frames)
+        if len(offset) != 3:
+            raise AZeeError(cannot_pose(f"`{known}` is moved by three numbers"))
+        return self.drag(known, (there + np.array(offset)).tolist(), explain=explain)
+
+    def release(self, handle: Handle | str) -> None:
+        """Forget what was dragged with a handle; the posture is found anew."""
+        self._goals.pop(self.handle(handle), None)
+        self._q = np.array(self.instant.q)
+        if self._goals:
+            self._solve()
+
+    def handle(self, handle: Handle | str) -> Handle:
+        """Return a handle that was given by its text. Raises: AZeeError: there is none."""
+        return read_handle(handle, self.text.program) if isinstance(handle, str) else handle
+
+    @property
+    def goals(self) -> dict[Handle, Target]:
+        """What was dragged where."""
+        return dict(self._goals)
+
+    @property
+    def q(self) -> Array:
+        """The posture now, (V,) radians."""
+        return np.array(self._q)
+
+    def _solve(self, *, explain: bool = False) -> Dragged:
+        done = self._solver.solve(self._goals, self._q, explain=explain)
+        self._q = done.q
+        return done
+
+    def _frame(self, handle: Handle, done: Dragged) -> Frame:
+        place = None
+        if isinstance(handle, SiteHandle):
+            frames = kinematics.frames(self._rig.chain, done.q)
+            x, y, z = self.instant.evaluator.site(handle.site, frames).tolist()
+            place = (x, y, z)
+        return Frame(
+            self._rig,
+            done.q,
+            self._unit_weights(done.q),
+            handle,
+            place,
+            done.residuals[handle],
+            tuple(
+                f"{capsule_words(o.first)} is {o.depth_m * 1000:.0f} mm in {capsule_words(o.second)}"
+                for o in done.overlaps
+            ),
+            done.reasons.get(handle),
+            done.solve_s,
+        )
+
+    @property
+    def _rig(self) -> Rig:
+        return self.instant.evaluator.rig
+
+    def _unit_weights(self, q: Array) -> dict[str, float]:
+        """Return the weights of the face: as they were, but for what was dragged and the lids."""
+        rig, weights = self._rig, dict(self.instant.unit_weights)
+
+        def add(units: dict[str, float], factor: float) -> None:
+            for unit, weight in units.items():
+                weights[unit] = weights.get(unit, 0.0) + factor * weight
+
+        dominant = self.instant.evaluator.binding.dominant
+        for handle, target in self._goals.items():
+            if not isinstance(handle, MorphHandle):
+                continue
+            key = Morph(handle.name, handle.side, 0.0).key(dominant)
+            before = sum(
+                t.constraint.weight
+                for t in self.instant.face
+                if isinstance(t.constraint, Morph) and t.constraint.key(dominant) == key
+            )
+            add(dict(rig.face_morphs.get(key, {})), target[0] - before)
+        for now, factor in ((q, 1.0), (self.instant.q, -1.0)):
+            add({unit: float(w) for unit, w in rig.lid_weights(now).items()}, factor)
+        return weights
+
+    # Writing ----------------------------------------------------------------------------------
+
+    def proposals(self, handle: Handle | str | None = None) -> list[Proposal]:
+        """Return what could be written for a handle, or for all that were dragged; best first.
+
+        Raises: AZeeError: cannot-pose: nothing was dragged.
+        """
+        goals = self._goals
+        if handle is not None:
+            known = self.handle(handle)
+            goals = {h: t for h, t in goals.items() if h == known}
+        if not goals:
+            raise AZeeError(cannot_pose("nothing was dragged"))
+        frames = kinematics.frames(self._rig.chain, self._q)
+        sites = {h: self._solver.sites(frozenset({h})) for h in goals}
+        proposing = Proposing(self.text, self.instant, frames, sites)
+        found = [p for h, target in goals.items() for p in proposing.proposals(h, target)]
+        return sorted(found, key=lambda proposal: proposal.cost)
+
+    def opened_with(self, proposal: Proposal) -> PosingSession:
+        """Return a session on the text with a proposal, compiled anew, at the same instant."""
+        text = self.text.with_document(proposal.document)
+        made = compile(
+            text.source.text,
+            self.made.rig,
+            utterance=text.utterance,
+            libraries=text.libraries,
+            dominant=text.dominant,
+        )
+        return PosingSession(text, made, self.at_s)
+
+
+def _document(text_or_path: str | Path) -> Document:
+    from azee.compilation import _source
+
+    return Document(_source(text_or_path))
+
+
+def _side(hand: Hand) -> Side:
+    return Side.RIGHT if hand == "right" else Side.LEFT
+
+
+def _checked(handle: Handle, target: Sequence[float]) -> Target:
+    """Return a target of the right size. Raises: AZeeError: it is none."""
+    numbers = tuple(float(x) for x in target)
+    wanted = 1 if isinstance(handle, MorphHandle) else 3
+    if len(numbers) != wanted or not all(map(math.isfinite, numbers)):
+        kind = "a weight" if wanted == 1 else "three numbers"
+        raise AZeeError(cannot_pose(f"`{handle}` is dragged to {kind}"))
+    most = HEAVIEST if wanted == 1 else FARTHEST_M
+    if max(map(abs, numbers)) > most:
+        raise AZeeError(cannot_pose(f"`{handle}` is dragged too far: at most {most:g}"))
+    return numbers

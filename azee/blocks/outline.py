@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from azee.blocks.view import Block
 
+
 def outline(blocks: Sequence[Block]) -> str:
     """Return the blocks as lines; operands without operands stay on the line of their block."""
     lines = [line for block in blocks for line in _lines(block, 0)]

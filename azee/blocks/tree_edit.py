@@ -82,9 +82,7 @@ def _edited(items: Items, edit: Edit) -> EditedTree:
         case Insert((), row, text):
             new = read_fragment(text)
             _require(0 <= row <= len(items))
-            return EditedTree(
-                (*items[:row], *new.items, *items[row:]), sources=(new.source,)
-            )
+            return EditedTree((*items[:row], *new.items, *items[row:]), sources=(new.source,))
         case Insert(path, row, text):
             source, operands = read_operands(text)
             at = _offset(_application(items, path), row)
@@ -259,9 +257,7 @@ def _wrapped(items: Items, path: Path, around: Fragment) -> EditedTree:
     kept, expr = _expression(items, path), around.expression
     holes = list(_holes(expr, ()))
     if len(holes) != 1:
-        raise AZeeError(
-            cannot_edit("one hole, `?it`, is expected here", around.source.text)
-        )
+        raise AZeeError(cannot_edit("one hole, `?it`, is expected here", around.source.text))
     (whole,) = with_node((as_item(expr),), (0, *holes[0]), kept)
     assert whole is not None
     return EditedTree(with_node(items, path, content(whole)), (), (around.source,))
@@ -271,4 +267,3 @@ def _holes(node: Expr, path: Path) -> list[Path]:
     if isinstance(node, Hole):
         return [path]
     return [hole for i, child in enumerate(children(node)) for hole in _holes(child, (*path, i))]
-

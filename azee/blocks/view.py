@@ -139,9 +139,7 @@ class _Viewer:
                 words.append(node.span)
         above, beside = self._comments(words)
         name = None if slot is None else slot.name
-        return Block(
-            path, row, name, kind, text, mark, node.span, rows, children, above, beside
-        )
+        return Block(path, row, name, kind, text, mark, node.span, rows, children, above, beside)
 
     def _entries(self, node: Definition, path: Path) -> Iterator[Block]:
         for i, (name, text) in enumerate(node.entries):

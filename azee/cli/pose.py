@@ -33,8 +33,8 @@ SHOWN = 8
     type=(str, float, float, float),
     multiple=True,
     metavar="PART X Y Z",
-    help="A site, such as \"I_TIP(s)\", or the `gaze`, to a point in metres: left, up and forward "
-    "of the signer's feet; or a bone, such as \"!palm(s)\" or \"nrm !palm(s)\", along a direction. "
+    help='A site, such as "I_TIP(s)", or the `gaze`, to a point in metres: left, up and forward '
+    'of the signer\'s feet; or a bone, such as "!palm(s)" or "nrm !palm(s)", along a direction. '
     "Repeatable.",
 )
 @click.option(
@@ -53,7 +53,7 @@ SHOWN = 8
     type=(str, float),
     multiple=True,
     metavar="NAME WEIGHT",
-    help="A shape of the face, such as \"'AU12\", or of a finger, such as \"'index_bend s\". "
+    help='A shape of the face, such as "\'AU12", or of a finger, such as "\'index_bend s". '
     "Repeatable.",
 )
 @click.option(

@@ -132,7 +132,9 @@ class DragSolver:
 
     def _own(self, handle: Handle) -> frozenset[int]:
         """Coordinates of the limbs that a handle is on, without the trunk that carries them."""
-        example = constraint_of(handle, (1.0,) if isinstance(handle, MorphHandle) else (0.0, 0.0, 1.0))
+        example = constraint_of(
+            handle, (1.0,) if isinstance(handle, MorphHandle) else (0.0, 0.0, 1.0)
+        )
         if self._is_facial(example):
             return frozenset()
         binding = self.instant.evaluator.binding
@@ -191,4 +193,3 @@ class DragSolver:
         moving = {name for name, node in zip(names, nodes, strict=True) if moved[node]}
         overlaps = tuple(o for o in report.penetration if {o.first, o.second} & moving)
         return Dragged(report.coordinates, residuals, overlaps, reasons, spent_s)
-

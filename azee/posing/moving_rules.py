@@ -40,9 +40,7 @@ MOVED = np.array([0.1, 0.2, 0.3])
 EXACT_M = 1e-6
 
 
-def of_rules(
-    text: PosedText, instant: Instant, task: TimedTask, frames: Frames
-) -> Iterator[Spot]:
+def of_rules(text: PosedText, instant: Instant, task: TimedTask, frames: Frames) -> Iterator[Spot]:
     """Yield the spots for a constraint that a rule of a library has, in frames of a posture."""
     chain = _calls(instant, task)
     own = [n for n, call in enumerate(chain) if _path(text, call) is not None]

@@ -225,7 +225,9 @@ def direction_names(
             for axis in (Dir(other), *((Nrm(other),) if other.name == "palm" else ())):
                 found += [(axis, 0.6), (Opp(axis), 0.8)]
     unit = direction / np.linalg.norm(direction)
-    found += ((Vec(*(np.round(unit, digits) + 0.0).tolist()), 2.4 + digits / 10) for digits in (2, 3))
+    found += (
+        (Vec(*(np.round(unit, digits) + 0.0).tolist()), 2.4 + digits / 10) for digits in (2, 3)
+    )
     names: dict[str, DirectionName] = {}
     for vector, cost in found:
         off = float(angle(evaluator.vector(vector, frames), unit))

@@ -238,4 +238,3 @@ class Proposing:
         if spot.kind == "replace":
             return Naming(weight, abs(target[0] - float(weight)), fixes, 0.0)
         return Naming(f"morph {handle} {weight}", abs(target[0] - float(weight)), fixes, 0.0)
-

@@ -1,10 +1,10 @@
 """An interactive session on a compiled score at one instant: drag, propose, write.
 
-    session = PosingSession.open("hello.azee", at_s=0.6)
-    session.drag("@I_TIP(s)", (0.1, 1.2, 0.3))   # a frame, thirty times a second or more
-    for proposal in session.proposals():
-        print(proposal.written, proposal.fixes)
-    text = session.proposals()[0].document.text
+session = PosingSession.open("hello.azee", at_s=0.6)
+session.drag("@I_TIP(s)", (0.1, 1.2, 0.3))   # a frame, thirty times a second or more
+for proposal in session.proposals():
+    print(proposal.written, proposal.fixes)
+text = session.proposals()[0].document.text
 """
 
 from __future__ import annotations
@@ -127,7 +127,9 @@ class PosingSession:
 
     # Dragging ---------------------------------------------------------------------------------
 
-    def drag(self, handle: Handle | str, target: Sequence[float], *, explain: bool = False) -> Frame:
+    def drag(
+        self, handle: Handle | str, target: Sequence[float], *, explain: bool = False
+    ) -> Frame:
         """Drag a handle to a target, and return what the screen shows then.
 
         Args: target: of a site or of the gaze a point, (3,) metres in the world; of a bone a
@@ -145,7 +147,9 @@ class PosingSession:
         """Drag a site by an offset, (3,) metres, from where it is now."""
         known = self.handle(handle)
         if not isinstance(known, SiteHandle):
-            raise AZeeError(cannot_pose(f"`{known}` is no site, and only sites are moved by metres"))
+            raise AZeeError(
+                cannot_pose(f"`{known}` is no site, and only sites are moved by metres")
+            )
         frames = kinematics.frames(self._rig.chain, self._q)
         there = self.instant.evaluator.site(known.site, frames)
         if len(offset) != 3:

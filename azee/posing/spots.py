@@ -78,7 +78,9 @@ def replacing(text: PosedText, handle: Handle, task: TimedTask, path: Path) -> S
     line = document.source.position(node_at(document.nodes, path).span.start)[0]
     inside = _definition(document, path)
     where = f"instead of `{subject_text(task.constraint)} …` in line {line}"
-    return Spot("replace", where + inside, _editing(document, lambda t: Replace(path, t)), task=task)
+    return Spot(
+        "replace", where + inside, _editing(document, lambda t: Replace(path, t)), task=task
+    )
 
 
 def _weight(document: Document, path: Path, handle: MorphHandle) -> Path:

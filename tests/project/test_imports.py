@@ -118,9 +118,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.cli.study": {*OURS, "click", "uvicorn"},
     "azee.studio": {
         *(OURS - {"azee"}),
-        *("azee.animation", "azee.assist", "azee.clip", "azee.compilation", "azee.export"),
-        *("azee.formats", "azee.lang", "azee.lsp", "azee.motion", "azee.score", "azee.web"),
-        *("azee.webserver", "numpy", "starlette"),
+        *("azee.animation", "azee.assist", "azee.blocks", "azee.clip", "azee.compilation"),
+        *("azee.export", "azee.formats", "azee.lang", "azee.lsp", "azee.motion", "azee.score"),
+        *("azee.web", "azee.webserver", "numpy", "starlette"),
     },
     "azee.web": set(),
     "azee.webserver": {"starlette", "uvicorn"},

@@ -30,7 +30,7 @@ def with_compiler(folder: Path, work: Callable[[Compiler], Awaitable[None]]) -> 
         compiler = Compiler(folder, [])
         compiler.start()
         try:
-            await asyncio.wait_for(work(compiler), 120)
+            await asyncio.wait_for(work(compiler), 280)
         finally:
             await compiler.close()
 

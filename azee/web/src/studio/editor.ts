@@ -18,6 +18,8 @@ import {
 import { azee, colours } from './azee-language';
 import { sanitized } from './sanitized';
 
+const LONGEST_ANSWER_MS = 30_000;
+
 /** Marks a change that the page made itself, so that it is not taken for typing. */
 const loaded = Annotation.define<boolean>();
 
@@ -121,6 +123,11 @@ export class Editor {
     });
   }
 
+  /** Makes a change that can be undone by itself. */
+  change(from: number, to: number, insert: string): void {
+    this.view.dispatch({ changes: { from, to, insert }, annotations: isolateHistory.of('full') });
+  }
+
   /** Inserts at the cursor, or over the selection. `select`: offsets in what is inserted. */
   insert(text: string, select: readonly [number, number]): void {
     const { from, to } = this.view.state.selection.main;
@@ -164,10 +171,12 @@ export class Editor {
     this.client?.disconnect();
     this.client = new LSPClient({
       rootUri: root,
+      timeout: LONGEST_ANSWER_MS,
       sanitizeHTML: sanitized,
       extensions: [serverCompletion(), serverDiagnostics(), hoverTooltips(), signatureHelp()],
     });
     this.client.connect(transport);
+    this.client.initializing.catch(() => undefined); // the connection went; it is made again
     this.view.dispatch({ effects: this.language.reconfigure(this.client.plugin(uri, 'azee')) });
   }
 }

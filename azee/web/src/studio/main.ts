@@ -1,4 +1,5 @@
 // The studio: text, signer, score and panels, linked.
+import { Blocks } from './blocks';
 import { TextDocument, type OnDisk } from './document';
 import { Editor } from './editor';
 import { choice, h } from './elements';
@@ -12,7 +13,7 @@ import { CAMERAS, Signer } from './signer';
 import { chosenLanguage, type Language, LANGUAGES, wordsOf } from './words';
 
 const COMPILE_MS = 40; // after the last key
-const RULES_MS = 1500;
+const RULES_MS = 700;
 const SPEEDS = [0.1, 0.25, 0.5, 0.75, 1, 1.5, 2];
 const FIRST = 'untitled.azee';
 const TEXT_SUFFIX = /\.az(ee)?$/;
@@ -26,6 +27,8 @@ document.title = words.title;
 class Studio {
   /** Milliseconds from keys to the picture with the movement that they made; for measuring. */
   readonly latencies: number[] = [];
+  /** Milliseconds that the steps of the server took, for each of them. */
+  readonly workerTimes: Record<string, number>[] = [];
   readonly notices = new Notices();
   readonly editor: Editor;
   readonly score: Score;
@@ -50,6 +53,7 @@ class Studio {
   private readonly reasons: Reasons;
   private readonly versions: Versions;
   private readonly film = new Film(words);
+  private readonly blockList: Blocks;
   private readonly settings = h('div');
   private readonly files = choice(words.file, [], '', name => void this.pickFile(name));
   private readonly state = h('span', { class: 'state', role: 'status' });
@@ -70,9 +74,12 @@ class Studio {
       expression => server.picture(this.document.file, this.editor.text, expression, this.options));
     this.reasons = new Reasons(words, () => this.mark());
     this.versions = new Versions(words, language, text => this.editor.replace(text));
+    this.blockList = new Blocks(words, () => ({ file: this.document.file, text: this.editor.text }),
+      (from, to, insert) => this.editor.change(from, to, insert),
+      from => this.editor.view.dispatch({ selection: { anchor: from }, scrollIntoView: true }));
     const header = this.header();
     this.layout = new Layout(words, header, {
-      rules: this.palette.element, reasons: this.reasons.element, versions: this.versions.element,
+      rules: this.palette.element, blocks: this.blockList.element, reasons: this.reasons.element, versions: this.versions.element,
       film: this.film.element, settings: this.settings,
     }, panel => this.panelShown(panel));
     this.score = new Score(words.score, (block, play) => this.pick(block, play), time => this.signer?.seek(time));
@@ -276,6 +283,7 @@ class Studio {
   }
 
   private async loadRules(): Promise<void> {
+    this.panelShown(this.layout.current === 'blocks' ? 'blocks' : null);
     try {
       this.palette.show((await server.rules(this.document.file, this.editor.text)).rules);
     } catch {
@@ -291,6 +299,7 @@ class Studio {
     const { begun } = this;
     this.signer?.show(data, () => {
       this.latencies.push(performance.now() - begun);
+      this.workerTimes.push(answer.ms);
       this.shownNumber = answer.number;
     });
     this.score.show(answer.blocks, answer.lead_s, this.signer?.duration ?? 1);
@@ -322,8 +331,6 @@ class Studio {
       this.signer.play(play || this.signer.playing);
     } else if (this.signer) this.signer.loop = null;
     this.tick();
-    const place = this.placeOf(block);
-    if (place) this.editor.view.dispatch({ effects: [], scrollIntoView: false });
   }
 
   /** The place in the text of a block, else of the nearest block around it. */
@@ -409,7 +416,9 @@ class Studio {
   }
 
   private panelShown(panel: PanelName | null): void {
-    if (panel === 'versions' && this.document.file) void this.versions.show(this.document.file);
+    if (!this.document?.file) return;
+    if (panel === 'versions') void this.versions.show(this.document.file);
+    if (panel === 'blocks') void this.blockList.show().catch(() => undefined);
   }
 
   // --- Parts of the page -----------------------------------------------------------------------

@@ -146,11 +146,11 @@ export class Reasons {
     this.draw();
   }
 
-  /** Returns the marks of the chosen block, else of all that runs at a time of the clip. */
+  /** Returns the marks of what runs at a time of the clip, of the chosen block if there is one. */
   marks(time: number, lead: number): Marked['marks'] {
     if (!this.drawn.checked) return [];
     return this.marked.filter(row => (this.block ? inside(row.path, this.block.path) : true))
-      .filter(row => this.block !== null || this.runs(row.path, time - lead))
+      .filter(row => this.runs(row.path, time - lead))
       .flatMap(row => {
         const nearest = Math.min(...row.marks.map(mark => Math.abs(mark.time_s - time)));
         return row.marks.filter(mark => Math.abs(mark.time_s - time) <= nearest + 1e-9);

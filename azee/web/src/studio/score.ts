@@ -2,7 +2,7 @@
 import { h, svg } from './elements';
 import type { Block, Constraint } from './protocol';
 
-const ROW = 26, RULER = 20, PAD = 12, LEAST_WIDTH = 4, LETTER = 7.2;
+const ROW = 26, RULER = 20, PAD = 12, LEAST_WIDTH = 4, LETTER = 8;
 
 interface Row {
   block: Block;
@@ -164,7 +164,7 @@ export class Score {
       svg('title', {}, `${block.title}  ${times}`),
       svg('rect', { x, y: y + 1, width: wide, height: ROW - 3, rx: 4 }),
     );
-    if (text) group.append(svg('text', { x: x + 6, y: y + 17 }, text));
+    if (text) group.append(svg('text', { x: x + 6, y: y + 17, 'aria-hidden': 'true' }, text));
     if (state) group.append(svg('circle', { cx: x + wide - 6, cy: y + 7, r: 3.5, class: 'flag' }));
     return group;
   }

@@ -3,6 +3,25 @@ import type { Answer, Diagnostic, Listing, Opened, Options, Rule } from './proto
 
 const FIRST_WAIT_MS = 200, LONGEST_WAIT_MS = 3000;
 
+/** A word of the text with the blocks of its operands; offsets are those of the editor. */
+export interface TextBlock {
+  path: number[];
+  row: number;
+  slot: string | null;
+  kind: string;
+  text: string;
+  mark: string | null;
+  from: number;
+  to: number;
+  above: string[];
+  beside: string[];
+  children: TextBlock[];
+}
+
+export type BlockEdit =
+  | { edit: 'move'; path: readonly number[]; row: number; to_path: readonly number[]; to_row: number }
+  | { edit: 'delete'; path: readonly number[]; row: number };
+
 /** What the server refused. `data`: its answer. */
 export class Refusal extends Error {
   constructor(readonly status: number, readonly data: Record<string, unknown>) {
@@ -43,6 +62,11 @@ export const server = {
   version: (name: string, number: number) =>
     json<{ text: string }>(`${named('api/version', name)}&number=${number}`),
   rules: (file: string, text: string) => json<{ rules: Rule[] }>('api/rules', 'POST', { file, text }),
+  blocks: (file: string, text: string) =>
+    json<{ blocks: TextBlock[] }>('api/blocks', 'POST', { file, text }),
+  edit: (file: string, text: string, edit: BlockEdit) =>
+    json<{ from: number; to: number; insert: string; gone: string[] }>(
+      'api/edit', 'POST', { file, text, edit }),
   picture: async (file: string, text: string, expression: string, options: Options) =>
     (await asked('api/picture', {
       method: 'POST', body: JSON.stringify({ ...options, number: 0, file, text, expression }),

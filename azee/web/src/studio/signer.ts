@@ -23,7 +23,7 @@ export const CAMERAS: Readonly<Record<'front' | 'side' | 'above' | 'hands' | 'fa
   front: { turn: 0, tilt: 0.03, away: 2.75, target: [0, 1.2, 0] },
   side: { turn: -1.35, tilt: 0.03, away: 2.75, target: [0, 1.2, 0] },
   above: { turn: 0, tilt: 1.1, away: 2.4, target: [0, 1.2, 0.1] },
-  hands: { turn: -0.25, tilt: 0.2, away: 1.3, target: [0, 1.12, 0.2] },
+  hands: { turn: -0.2, tilt: 0.12, away: 1.75, target: [0, 1.26, 0.15] },
   face: { turn: 0, tilt: 0, away: 0.95, target: [0, 1.52, 0.05] },
 };
 
@@ -136,6 +136,7 @@ export class Signer {
 
   private bind(): void {
     this.movement = this.body && this.clip ? this.clip.on(this.body) : null;
+    if (this.body) this.body.scene.visible = this.movement !== null; // nobody stands in the bind pose
     this.pose_();
   }
 

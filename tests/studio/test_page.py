@@ -1,4 +1,4 @@
-"""The page as people use it, in headless Chromium; and what is left of a text when things are killed.
+"""The page in headless Chromium as people use it, and what is left when something is killed.
 
 `STUDIO_PICTURES=FOLDER` keeps screenshots, to be looked at.
 """

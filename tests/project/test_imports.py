@@ -119,6 +119,12 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee.score", "azee.signs", "azee.spelling", "azee.web"),
         *("azee_grammar", "azee_rig", "numpy", "starlette"),
     },
+    "azee.studio": {
+        *(OURS - {"azee"}),
+        *("azee.animation", "azee.assist", "azee.blocks", "azee.clip", "azee.compilation"),
+        *("azee.export", "azee.formats", "azee.lang", "azee.lsp", "azee.motion", "azee.score"),
+        *("azee.web", "azee.webserver", "numpy", "starlette"),
+    },
     "azee.web": set(),
     "azee.webserver": {"starlette", "uvicorn"},
     "azee": OURS,

@@ -52,6 +52,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("db", "list", "--db", "stored.db"): {"sqlalchemy"},
     ("elan", "compare", "--help"): set(),
     ("spell", "--help"): set(),
+    ("studio", "--help"): set(),
     ("study", "--help"): set(),
     ("spell", "timing", "word"): {"numpy"},
     ("rig", "sites", "--format", "json"): {"numpy"},

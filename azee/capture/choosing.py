@@ -16,7 +16,7 @@ import numpy as np
 from azee.capture.components import principal_components
 from azee.capture.markers import Floats
 from azee.capture.poses import marker_distances
-from azee.capture.regression import LocalRegression, foretold
+from azee.capture.regression import LocalRegression
 
 Told = Callable[[int, int], None]
 """Is told of parts of the work that are done, and all."""
@@ -112,8 +112,8 @@ def by_regression(
         if key not in measured:
             known = [*sorted(key), *root]
             trust = np.ones((len(sequence), len(known)))
-            rows, shares = how.shares(poses[:, known], sequence[:, known], trust)
-            off = foretold(rows, shares, flat).reshape(sequence.shape) - sequence
+            made = how.foretell(poses[:, known], sequence[:, known], trust, flat)
+            off = made.reshape(sequence.shape) - sequence
             others = [m for m in range(poses.shape[1]) if m not in known]
             each = np.linalg.norm(off, axis=-1)
             measured[key] = float(each[:, others].sum(axis=1).mean()) / poses.shape[1]

@@ -19,8 +19,8 @@ from azee.capture.components import principal_components
 from azee.capture.markers import Floats
 from azee.capture.places import place_of
 from azee.capture.poses import representatives
-from azee.capture.reconstruction import by_components as through_components
-from azee.capture.regression import LocalRegression, foretold
+from azee.capture.reconstruction import through_components
+from azee.capture.regression import LocalRegression, nearest_rows
 from azee.capture.smoothing import COMPONENT_TAPS, NEAREST_TAPS, cone_filter, taps_at
 from azee.capture.training import CHOICE_POSES, Poses, split
 
@@ -191,13 +191,11 @@ def foretell_part(
     trust = np.ones((len(test), len(used)))
     if method == "nearest pose":
         few = samples[representatives(samples, CHOICE_POSES)]
-        rows, shares = LocalRegression(nearest=1).shares(few[:, used], test[:, used], trust)
-        nearest = foretold(rows, np.ones_like(shares), few.reshape(len(few), -1))
-        return cone_filter(nearest, taps_at(poses.rate_hz, NEAREST_TAPS)).reshape(test.shape)
+        rows = nearest_rows(few[:, used], test[:, used], trust)
+        return cone_filter(few[rows], taps_at(poses.rate_hz, NEAREST_TAPS))
     how = PUBLISHED if method == "regression as published" else LocalRegression()
-    rows, shares = how.shares(samples[:, used], test[:, used], trust)
     taps = taps_at(poses.rate_hz, COMPONENT_TAPS)
-    found = through_components(rows, shares, flat, principal_components(flat), taps)
+    (found,) = through_components(how, samples[:, used], test[:, used], trust, [flat], taps)
     return found.reshape(test.shape)
 
 
@@ -212,19 +210,18 @@ def identity(
     used = poses.columns([*chosen, *poses.root.names])
     trust = np.ones((len(test), len(used)))
     flat = samples.reshape(len(samples), -1)
-    every = principal_components(flat)
-    out = {}
-    kinds = {
-        "intercept outside the ridge": (LocalRegression(), every),
-        "all samples, as published": (PUBLISHED, every),
-        "intercept inside the ridge": (LocalRegression(penalised=True), every),
-        "35 components": (LocalRegression(), principal_components(flat, 35)),
-        "10 components": (LocalRegression(), principal_components(flat, 10)),
+    kinds: dict[str, tuple[LocalRegression, int | None]] = {
+        "intercept outside the ridge": (LocalRegression(), None),
+        "1/d over all samples, as published": (PUBLISHED, None),
+        "intercept inside the ridge": (LocalRegression(penalised=True), None),
+        "35 components": (LocalRegression(), 35),
+        "10 components": (LocalRegression(), 10),
     }
-    for name, (how, components) in kinds.items():
-        rows, shares = how.shares(samples[:, used], test[:, used], trust)
-        straight = foretold(rows, shares, flat)
-        through = through_components(rows, shares, flat, components)
+    out = {}
+    for name, (how, count) in kinds.items():
+        asked = samples[:, used], test[:, used], trust
+        straight = how.foretell(*asked, flat)
+        (through,) = through_components(how, *asked, [flat], count=count)
         out[name] = float(np.abs(straight - through).max())
     return out
 
@@ -317,9 +314,8 @@ def _table_row(
             if m is not None:
                 columns = list(by_clusters(few, part.judged, m, columns)[0].markers)
             trust = np.ones((len(part.test), len(columns)))
-            how = LocalRegression(nearest=1)
-            rows, _ = how.shares(database[:, columns], part.test[:, columns], trust)
-            made = cone_filter(database[rows[:, 0]], taps)
+            rows = nearest_rows(database[:, columns], part.test[:, columns], trust)
+            made = cone_filter(database[rows], taps)
             off = np.linalg.norm(made - part.test, axis=-1).mean(axis=1)
             found.setdefault((p, m), []).append(off)
     joined = {key: np.concatenate(offs) for key, offs in found.items()}

@@ -17,11 +17,11 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from azee.capture.components import Components, principal_components
+from azee.capture.components import principal_components
 from azee.capture.hand_fit import HandFit
 from azee.capture.markers import Flags, Floats, Markers, MarkersError, named_like
 from azee.capture.model import CaptureModel
-from azee.capture.regression import LocalRegression, foretold
+from azee.capture.regression import LocalRegression, nearest_rows
 from azee.capture.root_frame import InRoot, into_root
 from azee.capture.smoothing import COMPONENT_TAPS, NEAREST_TAPS, cone_filter, taps_at
 from azee.capture.tracking import Tracked, speed_of, tracked
@@ -160,27 +160,38 @@ def foretell(
     flat = model.poses.reshape(len(model.poses), -1)
     samples = model.poses[:, model.columns(used)]
     if method == "nearest":
-        how = LocalRegression(nearest=1)
-        rows, shares = how.shares(samples, track.positions, track.trust)
+        rows = nearest_rows(samples, track.positions, track.trust)
         taps = taps_at(rate_hz, NEAREST_TAPS)
-        shares = np.ones_like(shares)
-        found = [cone_filter(foretold(rows, shares, of), taps) for of in (flat, model.angles)]
+        at, angles = (cone_filter(of[rows], taps) for of in (flat, model.angles))
     else:
-        rows, shares = model.regression.shares(samples, track.positions, track.trust)
         taps = taps_at(rate_hz, COMPONENT_TAPS)
-        found = [
-            by_components(rows, shares, of, principal_components(of), taps)
-            for of in (flat, model.angles)
-        ]
-    return found[0].reshape(len(found[0]), -1, 3), found[1]
+        values = [flat, model.angles]
+        at, angles = through_components(
+            model.regression, samples, track.positions, track.trust, values, taps
+        )
+    return at.reshape(len(at), -1, 3), angles
 
 
-def by_components(
-    rows: Any, shares: Floats, values: Floats, components: Components, taps: int = 1
-) -> Floats:
-    """Foretell values (N, D) through their components, smoothed by a cone; (T, D)."""
-    found = foretold(rows, shares, components.of(values))
-    return components.back(cone_filter(found, taps))
+def through_components(
+    how: LocalRegression,
+    samples: Floats,
+    frames: Floats,
+    trust: Floats,
+    values: Sequence[Floats],
+    taps: int = 1,
+    count: int | None = None,
+) -> list[Floats]:
+    """Foretell several kinds of values (N, D) over their components, smoothed by a cone.
+
+    Args: samples, frames, trust: as of `LocalRegression.foretell`. count: of components; by default
+        all.
+    """
+    every = [principal_components(of, count) for of in values]
+    components = [found.of(of) for found, of in zip(every, values, strict=True)]
+    made = cone_filter(how.foretell(samples, frames, trust, np.hstack(components)), taps)
+    ends = np.cumsum([of.shape[1] for of in components])[:-1]
+    parts = np.split(made, ends, axis=1)
+    return [found.back(part) for found, part in zip(every, parts, strict=True)]
 
 
 def _check_size(markers: Markers, root: InRoot, model: CaptureModel) -> None:

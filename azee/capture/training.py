@@ -18,7 +18,7 @@ from azee.capture.markers import Floats, Markers, MarkersError, named_like
 from azee.capture.model import CaptureModel
 from azee.capture.places import digit_markers
 from azee.capture.poses import SEED, representatives
-from azee.capture.regression import LocalRegression, foretold
+from azee.capture.regression import LocalRegression
 from azee.capture.root_frame import RootShape, into_root, root_shape
 from azee.capture.tracking import speed_of, tracked
 
@@ -228,9 +228,9 @@ def left_open(
     known, unknown = (poses.positions[rows] for rows in split(len(poses.positions)))
     used = poses.columns([*chosen, *poses.root.names])
     trust = np.ones((len(unknown), len(used)))
-    rows, shares = how.shares(known[:, used], unknown[:, used], trust)
     flat = known.reshape(len(known), -1)
-    off = foretold(rows, shares, flat).reshape(unknown.shape) - unknown
+    made = how.foretell(known[:, used], unknown[:, used], trust, flat)
+    off = made.reshape(unknown.shape) - unknown
     return np.asarray(np.linalg.norm(off, axis=-1).mean(axis=0))
 
 

@@ -26,13 +26,15 @@ from azee.clip.digits import DIGITS
 
 Told = Callable[[int, int], None]
 
-ROUNDS = 20
+ROUNDS = 12
 MARKER_M = 0.002
 """How well markers are met; the unit of the costs below."""
 BASE_M, LENGTH_M, SIDE_M, PLACE_M = 0.004, 0.004, 0.0015, 0.008
 """How far a person may differ from the scaled body: first joints, bones along and across, places
 of markers."""
-REST_KEEP = 2.0
+SIZES = (0.85, 1.15)
+"""How large hands of adults are, times the body's."""
+IDLE_KEEP = 2.0
 """Cost of a squared radian from idle, in squared millimetres of a marker."""
 
 
@@ -58,7 +60,7 @@ def calibrate(
     shape = HandShape(hand.own_offsets, markers, np.eye(3), np.zeros(3))
     own = hand.marker_positions(shape, idle[:1])[0]
     mean = poses.mean(axis=0)
-    size = float(np.sqrt(mean.var(axis=0).sum() / own.var(axis=0).sum()))
+    size = _likely(float(np.sqrt(mean.var(axis=0).sum() / own.var(axis=0).sum())))
     shape = replace(
         shape,
         offsets=size * shape.offsets,
@@ -68,14 +70,14 @@ def calibrate(
     q = idle
     for n in range(ROUNDS):
         q = HandFit(hand, shape).solved(
-            shape.into_palm(poses), q, 1.0, keep=REST_KEEP * 0.1, smooth=0.0
+            shape.into_palm(poses), idle, 1.0, keep=IDLE_KEEP, smooth=0.0
         )
         shape = _turned(shape, poses, hand.marker_positions(shape, q))
         size = _size(shape, hand)
         shape = _shaped(shape, hand, shape.into_palm(poses), q, size)
         if told:
             told(n + 1, ROUNDS)
-    q = HandFit(hand, shape).solved(shape.into_palm(poses), q, 1.0, smooth=0.0)
+    q = HandFit(hand, shape).solved(shape.into_palm(poses), idle, 1.0, smooth=0.0)
     off = hand.marker_positions(shape, q) - shape.into_palm(poses)
     return Calibrated(shape, q, np.linalg.norm(off, axis=-1))
 
@@ -88,7 +90,12 @@ def _turned(shape: HandShape, poses: Floats, in_palm: Floats) -> HandShape:
 
 def _size(shape: HandShape, hand: Hand) -> float:
     own = hand.own_offsets
-    return float((shape.offsets * own).sum() / (own**2).sum())
+    return _likely(float((shape.offsets * own).sum() / (own**2).sum()))
+
+
+def _likely(size: float) -> float:
+    """Return a size that people have: markers on fingers hardly tell how long the palm is."""
+    return min(max(size, SIZES[0]), SIZES[1])
 
 
 def _shaped(shape: HandShape, hand: Hand, targets: Floats, q: Floats, size: float) -> HandShape:

@@ -1,4 +1,4 @@
-"""C3D: binary files of motion capture systems (c3d.org). Needs the library c3d (extra `capture`)."""
+"""C3D: binary files of motion capture. Needs the library c3d (extra `capture`)."""
 
 from __future__ import annotations
 

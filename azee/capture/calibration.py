@@ -31,7 +31,7 @@ MARKER_M = 0.002
 """How well markers are met; the unit of the costs below."""
 BASE_M, LENGTH_M, SIDE_M, PLACE_M = 0.004, 0.004, 0.0015, 0.008
 """How far a person may differ from the scaled body: first joints, bones along and across, places
-of markers."""
+of markers; metres."""
 SIZES = (0.85, 1.15)
 """How large hands of adults are, times the body's."""
 IDLE_KEEP = 2.0
@@ -83,7 +83,7 @@ def calibrate(
 
 
 def _turned(shape: HandShape, poses: Floats, in_palm: Floats) -> HandShape:
-    """Return a shape whose root is where poses (N, m, 3) best are what is in the palm, (N, m, 3)."""
+    """Return a shape that brings poses (N, m, 3) nearest to markers in the palm, (N, m, 3)."""
     R, shift = rigid(poses.reshape(-1, 3), in_palm.reshape(1, -1, 3))
     return replace(shape, rotation=R[0], shift=shift[0])
 

@@ -71,9 +71,7 @@ def by_clusters(
     return sorted(found, key=lambda choice: (choice.error_m, choice.markers))
 
 
-def by_components(
-    poses: Floats, candidates: Sequence[int], top: int | None = None
-) -> list[int]:
+def by_components(poses: Floats, candidates: Sequence[int], top: int | None = None) -> list[int]:
     """Algorithm 2: rank markers by what they contribute to the principal components.
 
     Σ |coefficient · eigenvalue| over all components and the three axes of a marker; with `top`, the
@@ -92,7 +90,6 @@ def by_regression(
     sequence: Floats,
     count: int,
     candidates: Sequence[int],
-    root: Sequence[int] = (),
     regression: LocalRegression | None = None,
     told: Told | None = None,
 ) -> Choice:
@@ -101,7 +98,7 @@ def by_regression(
     Markers are added one by one, and exchanged one by one as long as that gains: each choice is
     measured by the method that will use it.
 
-    Args: as of `by_clusters`. root: columns of the root's markers, which the choice also knows.
+    Args: as of `by_clusters`.
     """
     how = regression or LocalRegression()
     flat = poses.reshape(len(poses), -1)
@@ -110,7 +107,7 @@ def by_regression(
     def error(chosen: Iterable[int]) -> float:
         key = frozenset(chosen)
         if key not in measured:
-            known = [*sorted(key), *root]
+            known = sorted(key)
             trust = np.ones((len(sequence), len(known)))
             made = how.foretell(poses[:, known], sequence[:, known], trust, flat)
             off = made.reshape(sequence.shape) - sequence

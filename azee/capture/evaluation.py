@@ -22,7 +22,7 @@ from azee.capture.poses import representatives
 from azee.capture.reconstruction import through_components
 from azee.capture.regression import LocalRegression, nearest_rows
 from azee.capture.smoothing import COMPONENT_TAPS, NEAREST_TAPS, cone_filter, taps_at
-from azee.capture.training import CHOICE_POSES, Poses, split
+from azee.capture.training import REGRESSION_FRAMES, REGRESSION_POSES, Poses, split
 
 MethodName: TypeAlias = Literal["nearest pose", "regression as published", "regression"]
 Told = Callable[[int, int], None]
@@ -30,7 +30,10 @@ Told = Callable[[int, int], None]
 HELD_OUT = ((0.0, 0.3), (0.35, 0.65), (0.7, 1.0))
 """Parts that are held out in turn."""
 PUBLISHED = LocalRegression(exponent=1.0, nearest=None)
+INSIDE = LocalRegression(ridge_m=0.001**0.5, penalised=True)
 METHODS: tuple[MethodName, ...] = ("nearest pose", "regression as published", "regression")
+FEW = 10
+"""Components that figure 1.2 compares with going straight."""
 POSE_COUNTS, MARKER_COUNTS = (50, 100, 500, 1000), (2, 4, 6)
 SPARSE = (3, 6)
 THEIRS_CM: Mapping[tuple[int, int | None], tuple[float, float]] = {
@@ -77,13 +80,14 @@ class Example:
     """The last part, for the figures. Frames T, markers M.
 
     truth: (T, M, 3) metres in the root's frame. made: by choice and method, the same as foretold.
-    components: of the samples.
+    through: the same from our choices, by their number and that of components; None: straight on.
     """
 
     names: tuple[str, ...]
     rate_hz: float
     truth: Floats
     made: Mapping[tuple[str, int, str], Floats]
+    through: Mapping[tuple[int, int | None], Floats]
     samples: Floats
 
 
@@ -127,13 +131,22 @@ class Evaluation:
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """Samples and a test of one held-out part. known: samples for choosing; judged: its test."""
+    """Samples and a test of one held-out part. known: samples for choosing; judged: its test.
+
+    few, few_known: of samples and known, those that stand for all, by their number.
+    """
 
     poses: Poses
     samples: Floats
     test: Floats
     known: Floats
     judged: Floats
+    few: Mapping[int, Floats]
+    few_known: Mapping[int, Floats]
+
+    def of(self, method: MethodName) -> Floats:
+        """Return the samples that a method uses."""
+        return self.few[max(self.few)] if method == "nearest pose" else self.samples
 
 
 def parts_of(poses: Poses) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
@@ -146,8 +159,8 @@ def parts_of(poses: Poses) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64
 
 def evaluate(poses: Poses, *, quick: bool = False, told: Told | None = None) -> Evaluation:
     """Measure everything. Args: quick: on every fourth sample, with fewer poses."""
-    parts = [_part(poses, *rows, quick) for rows in parts_of(poses)]
     counts = POSE_COUNTS[:2] if quick else POSE_COUNTS
+    parts = [_part(poses, *rows, counts, 4 if quick else 1) for rows in parts_of(poses)]
     total = len(counts) + len(SPARSE) * 4 + 1
     done = 0
 
@@ -162,21 +175,24 @@ def evaluate(poses: Poses, *, quick: bool = False, told: Told | None = None) -> 
         table |= _table_row(parts, p)
         step()
     rows, made = [_mean_pose(parts)], {}
-    for name, count, chosen in _choices(parts, quick, step):
+    for name, count, chosen in _choices(parts, step):
         for method in METHODS:
-            results = [foretell_part(part.poses, part.samples, part.test, markers, method)
-                       for part, markers in zip(parts, chosen, strict=True)]  # fmt: skip
+            results = [
+                foretell_part(part.poses, part.of(method), part.test, markers, method)
+                for part, markers in zip(parts, chosen, strict=True)
+            ]
             rows.append(_row(name, method, parts, chosen, results))
             made[name, count, method] = results[-1]
     last = parts[-1]
-    example = Example(poses.names, poses.rate_hz, last.test, made, last.samples)
-    chosen = next(row.markers[-1] for row in rows if row.choice == "ours" and row.count == 6)
+    ours = {row.count: row.markers[-1] for row in rows if row.choice == "ours"}
+    few = {(count, of): _made_of(last, ours[count], of) for count in SPARSE for of in (None, FEW)}
+    example = Example(poses.names, poses.rate_hz, last.test, made, few, last.samples)
     return Evaluation(
         poses.sources,
         len(poses.positions),
         table,
         tuple(rows),
-        identity(last.poses, last.samples, last.test[:: 10 if quick else 4], chosen),
+        identity(last.poses, last.samples, last.test[:: 10 if quick else 4], ours[6]),
         _by_components(last),
         example,
     )
@@ -190,9 +206,8 @@ def foretell_part(
     flat = samples.reshape(len(samples), -1)
     trust = np.ones((len(test), len(used)))
     if method == "nearest pose":
-        few = samples[representatives(samples, CHOICE_POSES)]
-        rows = nearest_rows(few[:, used], test[:, used], trust)
-        return cone_filter(few[rows], taps_at(poses.rate_hz, NEAREST_TAPS))
+        rows = nearest_rows(samples[:, used], test[:, used], trust)
+        return cone_filter(samples[rows], taps_at(poses.rate_hz, NEAREST_TAPS))
     how = PUBLISHED if method == "regression as published" else LocalRegression()
     taps = taps_at(poses.rate_hz, COMPONENT_TAPS)
     (found,) = through_components(how, samples[:, used], test[:, used], trust, [flat], taps)
@@ -213,7 +228,7 @@ def identity(
     kinds: dict[str, tuple[LocalRegression, int | None]] = {
         "intercept outside the ridge": (LocalRegression(), None),
         "1/d over all samples, as published": (PUBLISHED, None),
-        "intercept inside the ridge": (LocalRegression(penalised=True), None),
+        "intercept inside a ridge of 10⁻³": (INSIDE, None),
         "35 components": (LocalRegression(), 35),
         "10 components": (LocalRegression(), 10),
     }
@@ -224,6 +239,19 @@ def identity(
         (through,) = through_components(how, *asked, [flat], count=count)
         out[name] = float(np.abs(straight - through).max())
     return out
+
+
+def _made_of(part: _Part, chosen: Sequence[str], count: int | None) -> Floats:
+    """Return all markers of a part's test, through so many components or straight on."""
+    used = part.poses.columns([*chosen, *part.poses.root.names])
+    flat = part.samples.reshape(len(part.samples), -1)
+    asked = part.samples[:, used], part.test[:, used], np.ones((len(part.test), len(used)))
+    taps = taps_at(part.poses.rate_hz, COMPONENT_TAPS)
+    if count is None:
+        made = cone_filter(LocalRegression().foretell(*asked, flat), taps)
+    else:
+        (made,) = through_components(LocalRegression(), *asked, [flat], taps, count)
+    return made.reshape(part.test.shape)
 
 
 def errors_of(
@@ -241,14 +269,20 @@ def errors_of(
 
 
 def _part(
-    poses: Poses, rows: NDArray[np.int64], held: NDArray[np.int64], quick: bool
+    poses: Poses,
+    rows: NDArray[np.int64],
+    held: NDArray[np.int64],
+    counts: Sequence[int],
+    stride: int,
 ) -> _Part:
-    samples = poses.positions[rows]
-    first, last = split(len(samples))
-    known, judged = samples[first], samples[last][::4]
-    if quick:
-        samples, known, judged = samples[::4], known[::4], judged[::4]
-    return _Part(poses, samples, poses.positions[held], known, judged)
+    """Make a part with every so manieth sample."""
+    samples = poses.positions[rows][::stride]
+    known, judged = (samples[rows] for rows in split(len(samples)))
+    few, few_known = (
+        {p: of[representatives(of, p)] for p in (*counts, REGRESSION_POSES)}
+        for of in (samples, known)
+    )
+    return _Part(poses, samples, poses.positions[held], known, judged[::4], few, few_known)
 
 
 def _mean_pose(parts: Sequence[_Part]) -> Row:
@@ -268,15 +302,14 @@ def _row(
 
 
 def _choices(
-    parts: Sequence[_Part], quick: bool, step: Callable[[], None]
+    parts: Sequence[_Part], step: Callable[[], None]
 ) -> Iterator[tuple[str, int, list[tuple[str, ...]]]]:
     """Yield every way to choose markers, how many, and the choice in each part."""
     poses = parts[0].poses
     tips = tuple(n for n in poses.names if (place := place_of(n)) and place.bone == 3)
     yield "finger tips", len(tips), [tips for _ in parts]
     step()
-    few = [part.known[representatives(part.known, CHOICE_POSES)] for part in parts]
-    columns, root = poses.candidates, poses.columns(poses.root.names)
+    columns = poses.candidates
 
     def named(found: Sequence[Sequence[int]]) -> list[tuple[str, ...]]:
         return [tuple(poses.names[m] for m in markers) for markers in found]
@@ -284,30 +317,35 @@ def _choices(
     for count in SPARSE:
         for name, printed in (("algorithm 1", False), ("algorithm 1, printed", True)):
             ranked = [
-                by_clusters(known, part.judged, count, columns, printed=printed)[0].markers
-                for known, part in zip(few, parts, strict=True)
-            ]
+                by_clusters(
+                    part.few_known[max(part.few_known)], part.judged, count, columns,
+                    printed=printed,
+                )[0].markers
+                for part in parts
+            ]  # fmt: skip
             yield name, count, named(ranked)
             step()
         ranked2 = [by_components(part.samples, columns)[:count] for part in parts]
         yield "algorithm 2", count, named(ranked2)
         step()
         ours = [
-            by_regression(known, part.judged, count, columns, root).markers
-            for known, part in zip(few, parts, strict=True)
+            by_regression(
+                part.few_known[REGRESSION_POSES],
+                part.judged[:: max(1, len(part.judged) // REGRESSION_FRAMES)],
+                count,
+                columns,
+            ).markers
+            for part in parts
         ]
         yield "ours", count, named(ours)
         step()
 
 
-def _table_row(
-    parts: Sequence[_Part], p: int
-) -> dict[tuple[int, int | None], tuple[float, float]]:
+def _table_row(parts: Sequence[_Part], p: int) -> dict[tuple[int, int | None], tuple[float, float]]:
     """Return a row of table 3.1: algorithm 1 and nearest poses with a cone, of p poses."""
     found: dict[tuple[int, int | None], list[Floats]] = {}
     for part in parts:
-        few = part.known[representatives(part.known, p)]
-        database = part.samples[representatives(part.samples, p)]
+        few, database = part.few_known[p], part.few[p]
         taps = taps_at(part.poses.rate_hz, NEAREST_TAPS)
         for m in (*MARKER_COUNTS, None):
             columns = part.poses.candidates

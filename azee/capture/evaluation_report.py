@@ -61,9 +61,7 @@ def _comparison(e: Evaluation) -> Iterator[str]:
     for name, count in dict.fromkeys((row.choice, row.count) for row in e.rows if row.count):
         cells = []
         for method in METHODS:
-            row = next(
-                r for r in e.rows if (r.choice, r.count, r.method) == (name, count, method)
-            )
+            row = next(r for r in e.rows if (r.choice, r.count, r.method) == (name, count, method))
             cells += [_spread(row.errors.every), _spread(row.errors.unseen)]
         yield f"| {name} | {count} | {' | '.join(cells)} |"
 

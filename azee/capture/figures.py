@@ -66,20 +66,19 @@ def _components_needed(e: Evaluation, axes: Sequence[Axes]) -> None:
 
 
 def _with_and_without(e: Evaluation, axes: Sequence[Axes]) -> None:
-    """Draw errors over time with components, and without them where the ridge bends the mean."""
+    """Draw errors over time straight on, which all components give too, and through a few."""
     (ax,) = axes
     times, rows = _shown(e.example)
-    for (choice, count), colour in ((("ours", 6), "#1d4ed8"), (("ours", 3), "#60a5fa")):
-        for method, style in (("regression", "-"), ("regression, penalised", ":")):
-            found = e.example.made.get((choice, count, method))
-            if found is None:
-                continue
-            label = f"{count} markers, {'components' if style == '-' else 'straight, penalised'}"
-            off = _off(e.example, found)[rows]
-            ax.plot(times, off, style, color=colour, lw=1, label=label)
+    for (markers, components), made in e.example.through.items():
+        straight = components is None
+        ax.plot(
+            times, _off(e.example, made)[rows], "-" if straight else ":", lw=1,
+            color=COLOURS["ours", markers],
+            label=f"{markers} markers, " + ("straight" if straight else f"{components} components"),
+        )  # fmt: skip
     ax.set(
         xlabel="s", ylabel="mean error, mm", ylim=(0, None),
-        title="Figure 1.2: with components, and straight with a penalised intercept",
+        title="Figure 1.2: straight on (as through all components), and through few",
     )  # fmt: skip
     ax.legend(frameon=False, ncols=2, fontsize=8)
 

@@ -89,8 +89,7 @@ class Hand:
         """Columns of last joints of fingers and of those before, which equation 2.1 couples."""
         index = self.body.coordinates.index
         pairs = [
-            [index[f"{finger}_{self.side}_{bone}.flexion"] for finger in FINGERS]
-            for bone in (3, 2)
+            [index[f"{finger}_{self.side}_{bone}.flexion"] for finger in FINGERS] for bone in (3, 2)
         ]
         return np.array(pairs[0]), np.array(pairs[1])
 
@@ -172,9 +171,7 @@ class Hand:
         turned = (rotations[:, numbers] @ local[:, :, None])[..., 0]
         return np.asarray(origins[:, numbers] + turned)
 
-    def numbered(
-        self, markers: Mapping[str, tuple[Place, Floats]]
-    ) -> tuple[Rows, Floats]:
+    def numbered(self, markers: Mapping[str, tuple[Place, Floats]]) -> tuple[Rows, Floats]:
         """Return which of the 15 bones carries each marker, (m,), and where on it, (m, 3)."""
         numbers = [3 * DIGITS.index(place.digit) + place.bone - 1 for place, _ in markers.values()]
         return np.array(numbers), np.array([position for _, position in markers.values()])

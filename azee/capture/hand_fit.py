@@ -1,4 +1,4 @@
-"""Postures of a hand whose markers are where they were recorded: `azee_solver`'s trajectory problem.
+"""Postures of a hand with its markers where they were recorded: a problem of `azee_solver`.
 
 Every marker on a digit is a site that a constraint places. All frames are solved at once by damped
 Gauss-Newton steps inside the limits. Joints stay near a reference posture, since a few markers do
@@ -117,7 +117,7 @@ class HandFit:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Targets:
-    """Fills in where the markers are in each frame. entries: (m,). points: (T, m, 3) in the world."""
+    """Fills in where the markers are in each frame: entries (m,), points (T, m, 3) in the world."""
 
     entries: Floats
     points: Floats

@@ -69,7 +69,7 @@ class Markers:
         return np.asarray(~np.isnan(self.positions[:, :, 0]))
 
     def only(self, names: Sequence[str]) -> Markers:
-        """Return some of the markers, in the order given. Raises: MarkersError: one is not there."""
+        """Return some of the markers, in the order given. Raises: MarkersError: one is missing."""
         missing = [name for name in names if name not in self.names]
         if missing:
             raise MarkersError(

@@ -81,6 +81,6 @@ def root_markers(names: Sequence[str]) -> tuple[str, ...]:
     if len(found) < 3:
         raise MarkersError(
             f"no three markers are the root's by their names; there are: {', '.join(names)}",
-            "name them with --root: markers on forearm or back of the hand that keep their distance",
+            "name them with --root: markers that do not move against each other",
         )
     return found

@@ -13,8 +13,11 @@ from azee.capture.markers import Floats
 Rows = NDArray[np.int64]
 
 SEED = 2016
-SWEEPS = 25
-"""Of k-means; centres hardly move any more."""
+SWEEPS = 10
+"""Of k-means; centres move little after them."""
+ENOUGH = 4
+"""Poses for each centre, more of which change it little: frames that follow each other are nearly
+alike."""
 
 
 def marker_distances(first: Floats, second: Floats) -> Floats:
@@ -36,14 +39,15 @@ def marker_distances(first: Floats, second: Floats) -> Floats:
 def representatives(poses: Floats, count: int, seed: int = SEED) -> Rows:
     """Return so many real poses that stand for all: of each cluster the one nearest its mean.
 
-    k-means on all markers (Wheatland 2016, section 3.1.2), started by k-means++. Fewer are returned
-    where clusters are left empty.
+    k-means on all markers (Wheatland 2016, section 3.1.2), started by k-means++, of so many evenly
+    spaced poses as tell the clusters. Fewer are returned where clusters are left empty.
 
     Args: poses: (N, M, 3). Returns: rows of `poses`, increasing.
     """
     if count >= len(poses):
         return np.arange(len(poses))
-    flat = poses.reshape(len(poses), -1)
+    every = np.arange(0, len(poses), max(1, len(poses) // max(ENOUGH * count, 1000)))
+    flat = poses[every].reshape(len(every), -1)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of empty clusters
         centres, member = kmeans2(
@@ -52,4 +56,4 @@ def representatives(poses: Floats, count: int, seed: int = SEED) -> Rows:
     apart = np.linalg.norm(flat - centres[member], axis=1)
     order = np.lexsort((apart, member))
     first = np.r_[True, np.diff(member[order]) > 0]
-    return np.sort(order[first])
+    return np.asarray(every[np.sort(order[first])])

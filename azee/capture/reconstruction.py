@@ -12,14 +12,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from azee.capture.components import principal_components
 from azee.capture.hand_fit import HandFit
-from azee.capture.markers import Flags, Floats, Markers, MarkersError, named_like
+from azee.capture.markers import Floats, Markers, MarkersError, named_like
 from azee.capture.model import CaptureModel
 from azee.capture.regression import LocalRegression, nearest_rows
 from azee.capture.root_frame import InRoot, into_root
@@ -211,9 +211,7 @@ def _check_size(markers: Markers, root: InRoot, model: CaptureModel) -> None:
         )
 
 
-def _check_speed(
-    track: Tracked, rate_hz: float, used: Sequence[str], model: CaptureModel
-) -> None:
+def _check_speed(track: Tracked, rate_hz: float, used: Sequence[str], model: CaptureModel) -> None:
     """Refuse a rate that makes fingers too fast. Raises: MarkersError."""
     ours = speed_of(track.positions, rate_hz)
     theirs = float(model.provenance["speed_m_s"])

@@ -142,7 +142,9 @@ def _fitted(shape: Floats, points: Floats) -> tuple[Floats, Floats, Floats]:
 
 def _order(shape: Floats, points: Floats) -> tuple[int, ...]:
     """Return the order of points (R, 3) in which they fit a shape best."""
-    orders = list(permutations(range(len(points)))) if len(points) <= 5 else [(*range(len(points)),)]
+    orders = (
+        list(permutations(range(len(points)))) if len(points) <= 5 else [(*range(len(points)),)]
+    )
     tried = np.stack([points[list(order)] for order in orders])
     return orders[int(_fitted(shape, tried)[2].argmin())]
 

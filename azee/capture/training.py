@@ -35,6 +35,8 @@ SHAPE_POSES = 150
 """Poses that a hand's shape is fitted to."""
 CHOICE_POSES = 1000
 """p of algorithm 1."""
+REGRESSION_POSES, REGRESSION_FRAMES = 500, 200
+"""Samples and frames on which a choice is scored by regression."""
 WIDTH_M = (0.05, 0.4)
 """How wide a hand with its markers is."""
 
@@ -68,7 +70,7 @@ class Poses:
         """Return some of the frames, increasing rows."""
         apart = np.flatnonzero(np.diff(rows) > 1) + 1
         starts = {0, *apart.tolist(), *np.searchsorted(rows, self.runs[1:-1]).tolist()}
-        runs = tuple(sorted(starts - {len(rows)})) + (len(rows),)
+        runs = (*tuple(sorted(starts - {len(rows)})), len(rows))
         return replace(self, positions=self.positions[rows], runs=runs)
 
 
@@ -144,21 +146,19 @@ def choose(
     if not 0 < count <= len(columns):
         raise MarkersError(f"{count} of {len(columns)} markers cannot be chosen")
     known, unknown = (poses.positions[rows] for rows in split(len(poses.positions)))
-    sequence = unknown[:: max(1, len(unknown) // 400)]
     match algorithm:
         case "components":
             chosen = by_components(poses.positions, columns)[:count]
         case "clusters" | "clusters-printed":
             few = known[representatives(known, CHOICE_POSES)]
             printed = algorithm == "clusters-printed"
-            ranked = by_clusters(few, sequence, count, columns, printed=printed, told=told)
+            ranked = by_clusters(few, unknown[::4], count, columns, printed=printed, told=told)
             chosen = list(ranked[0].markers)
         case "regression":
-            root = poses.columns(poses.root.names)
-            few = known[representatives(known, CHOICE_POSES)]
-            chosen = list(
-                by_regression(few, sequence, count, columns, root, regression, told).markers
-            )
+            few = known[representatives(known, REGRESSION_POSES)]
+            sequence = unknown[:: max(1, len(unknown) // REGRESSION_FRAMES)]
+            best = by_regression(few, sequence, count, columns, regression, told)
+            chosen = list(best.markers)
     return tuple(poses.names[m] for m in chosen)
 
 
@@ -177,9 +177,7 @@ def train(
     how = regression or LocalRegression()
     for name in chosen:
         if name not in poses.names:
-            raise MarkersError(
-                f"there is no marker `{name}`; there are: {', '.join(poses.names)}"
-            )
+            raise MarkersError(f"there is no marker `{name}`; there are: {', '.join(poses.names)}")
     places = digit_markers(poses.names)
     columns = poses.columns(list(places))
     few = poses.positions[representatives(poses.positions, SHAPE_POSES)][:, columns]

@@ -121,9 +121,7 @@ def reconstruct(
 
 
 @click.command(short_help="How good hands from few markers are.")
-@click.argument(
-    "files", nargs=-1, required=True, metavar="FILE…", type=click.Path(path_type=Path)
-)
+@click.argument("files", nargs=-1, required=True, metavar="FILE…", type=click.Path(path_type=Path))
 @click.option(
     "-o", "folder", metavar="FOLDER", required=True, type=click.Path(path_type=Path),
     help="Write evaluation.json, evaluation.md and the figures; it is made if it is not there.",

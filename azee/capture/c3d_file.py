@@ -12,8 +12,8 @@ import numpy as np
 from azee.capture.markers import Floats, MarkersError
 
 UNREADABLE = (
-    AssertionError, AttributeError, EOFError, IndexError, KeyError, MemoryError, OverflowError,
-    RuntimeError, TypeError, ValueError, struct.error,
+    AssertionError, AttributeError, EOFError, IndexError, KeyError, MemoryError, NameError,
+    OverflowError, RuntimeError, TypeError, ValueError, struct.error,
 )  # fmt: skip
 """Exceptions of the library for a file that is not C3D, or is damaged."""
 

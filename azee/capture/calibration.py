@@ -26,7 +26,10 @@ from azee.clip.digits import DIGITS
 
 Told = Callable[[int, int], None]
 
-ROUNDS = 12
+STARTS = (0.9, 1.0, 1.12)
+"""Sizes of hands to start from, times the body's: the best is gone on with."""
+FIRST, ROUNDS = 3, 10
+"""Rounds from each start, and from the best."""
 MARKER_M = 0.002
 """How well markers are met; the unit of the costs below."""
 BASE_M, LENGTH_M, SIDE_M, PLACE_M = 0.004, 0.004, 0.0015, 0.008
@@ -40,7 +43,7 @@ IDLE_KEEP = 2.0
 
 @dataclass(frozen=True, eq=False)
 class Calibrated:
-    """A shape, the postures (N, V) of the poses, and what markers are off in them, (N, m) metres."""
+    """A shape, the postures (N, V) of poses, and what markers are off in them, (N, m) metres."""
 
     shape: HandShape
     postures: Floats
@@ -55,31 +58,46 @@ def calibrate(
     Args: poses: (N, m, 3) markers on digits in the root's frame, in the order of `places`.
     """
     hand = replace(hand, coupled=False)
+    total = len(STARTS) * FIRST + ROUNDS
+    done = 0
+
+    def improved(found: Calibrated, rounds: int) -> Calibrated:
+        nonlocal done
+        for _ in range(rounds):
+            found = _improved(found, poses, hand)
+            done += 1
+            if told:
+                told(done, total)
+        return found
+
+    starts = [improved(_start(poses, places, hand, size), FIRST) for size in STARTS]
+    return improved(min(starts, key=lambda found: float(found.off_m.mean())), ROUNDS)
+
+
+def _start(poses: Floats, places: Mapping[str, Place], hand: Hand, size: float) -> Calibrated:
+    """Return the body's own hand in another size, laid on the poses."""
+    markers = {name: (place, size * hand.site(place)) for name, place in places.items()}
+    shape = HandShape(size * hand.own_offsets, markers, np.eye(3), np.zeros(3))
+    idle = hand.body.coordinates.idle[None]
+    shape = _turned(shape, poses.mean(axis=0)[None], hand.marker_positions(shape, idle))
+    return _posed(shape, poses, hand)
+
+
+def _improved(found: Calibrated, poses: Floats, hand: Hand) -> Calibrated:
+    """Fit the shape to the postures, then the postures to the shape."""
+    shape, q = found.shape, found.postures
+    shape = _turned(shape, poses, hand.marker_positions(shape, q))
+    shape = _shaped(shape, hand, shape.into_palm(poses), q, _size(shape, hand))
+    return _posed(shape, poses, hand)
+
+
+def _posed(shape: HandShape, poses: Floats, hand: Hand) -> Calibrated:
+    """Fit postures to the shape."""
     idle = np.tile(hand.body.coordinates.idle, (len(poses), 1))
-    markers = {name: (place, hand.site(place)) for name, place in places.items()}
-    shape = HandShape(hand.own_offsets, markers, np.eye(3), np.zeros(3))
-    own = hand.marker_positions(shape, idle[:1])[0]
-    mean = poses.mean(axis=0)
-    size = _likely(float(np.sqrt(mean.var(axis=0).sum() / own.var(axis=0).sum())))
-    shape = replace(
-        shape,
-        offsets=size * shape.offsets,
-        markers={name: (place, size * at) for name, (place, at) in markers.items()},
-    )
-    shape = _turned(shape, mean[None], size * own[None])
-    q = idle
-    for n in range(ROUNDS):
-        q = HandFit(hand, shape).solved(
-            shape.into_palm(poses), idle, 1.0, keep=IDLE_KEEP, smooth=0.0
-        )
-        shape = _turned(shape, poses, hand.marker_positions(shape, q))
-        size = _size(shape, hand)
-        shape = _shaped(shape, hand, shape.into_palm(poses), q, size)
-        if told:
-            told(n + 1, ROUNDS)
-    q = HandFit(hand, shape).solved(shape.into_palm(poses), idle, 1.0, smooth=0.0)
-    off = hand.marker_positions(shape, q) - shape.into_palm(poses)
-    return Calibrated(shape, q, np.linalg.norm(off, axis=-1))
+    targets = shape.into_palm(poses)
+    q = HandFit(hand, shape).solved(targets, idle, 1.0, keep=IDLE_KEEP, smooth=0.0)
+    off = np.linalg.norm(hand.marker_positions(shape, q) - targets, axis=-1)
+    return Calibrated(shape, q, off)
 
 
 def _turned(shape: HandShape, poses: Floats, in_palm: Floats) -> HandShape:

@@ -98,4 +98,4 @@ def _showing(body: Rig, side: str) -> Floats:
     )
     idle = body.coordinates.idle
     tasks = [Task(constraint, rank=n) for n, constraint in enumerate(asked)]
-    return solve(body, tasks, dominant=own, start=idle, reference=idle).q
+    return solve(body, tasks, dominant=own, start=idle, reference=idle).coordinates

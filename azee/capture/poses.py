@@ -39,8 +39,8 @@ def marker_distances(first: Floats, second: Floats) -> Floats:
 def representatives(poses: Floats, count: int, seed: int = SEED) -> Rows:
     """Return so many real poses that stand for all: of each cluster the one nearest its mean.
 
-    k-means on all markers (Wheatland 2016, section 3.1.2), started by k-means++, of so many evenly
-    spaced poses as tell the clusters. Fewer are returned where clusters are left empty.
+    k-means on all markers (Wheatland 2016, section 3.1.2), of so many evenly spaced poses as tell
+    the clusters. Fewer are returned where clusters are left empty.
 
     Args: poses: (N, M, 3). Returns: rows of `poses`, increasing.
     """
@@ -51,7 +51,7 @@ def representatives(poses: Floats, count: int, seed: int = SEED) -> Rows:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of empty clusters
         centres, member = kmeans2(
-            flat, count, iter=SWEEPS, minit="++", seed=np.random.default_rng(seed)
+            flat, count, iter=SWEEPS, minit="points", seed=np.random.default_rng(seed)
         )
     apart = np.linalg.norm(flat - centres[member], axis=1)
     order = np.lexsort((apart, member))

@@ -24,7 +24,7 @@ from azee.capture.model import CaptureModel
 from azee.capture.regression import LocalRegression, nearest_rows
 from azee.capture.root_frame import InRoot, into_root
 from azee.capture.smoothing import COMPONENT_TAPS, NEAREST_TAPS, cone_filter, taps_at
-from azee.capture.tracking import Tracked, speed_of, tracked
+from azee.capture.tracking import Tracked, roughness_of, speed_of, tracked
 
 Method: TypeAlias = Literal["regression", "nearest"]
 
@@ -34,6 +34,8 @@ LEAST_SEEN = 0.5
 """Share of frames in which the root has to be seen."""
 SIZE = 0.15
 """By how much the root's markers may be farther apart than the model's."""
+NOISY = 1.5
+"""Markers that are rougher than the model's by this factor are noisy: the ridge allows for it."""
 FAST = 4.0
 """Recordings that are faster than the model's by this factor have another rate than they say."""
 
@@ -69,7 +71,7 @@ class Reconstruction:
             "rate_hz": self.rate_hz,
             "root": {
                 "off_m": float(self.root.off_m[self.root.measured].mean()),
-                "interpolated_frames": int((~self.root.measured).sum()),
+                "guessed_frames": int((~self.root.measured).sum()),
             },
             "relabelled_frames": int(self.tracked.relabelled.sum()),
             "markers": {
@@ -138,7 +140,7 @@ def reconstruct(
         notes.append(f"markers were swapped in {int(track.relabelled.sum())} frames; put right")
     lacking = int((~root.measured).sum())
     if lacking:
-        notes.append(f"the root is interpolated in {lacking} frames")
+        notes.append(f"the root is not seen whole in {lacking} frames")
     return Reconstruction(
         model.names, at, model.digits, fitted, postures, known, residual, markers.rate_hz, root,
         track, tuple(notes),
@@ -166,9 +168,8 @@ def foretell(
     else:
         taps = taps_at(rate_hz, COMPONENT_TAPS)
         values = [flat, model.angles]
-        at, angles = through_components(
-            model.regression, samples, track.positions, track.trust, values, taps
-        )
+        how = _for_noise(model, roughness_of(track.positions))
+        at, angles = through_components(how, samples, track.positions, track.trust, values, taps)
     return at.reshape(len(at), -1, 3), angles
 
 
@@ -192,6 +193,15 @@ def through_components(
     ends = np.cumsum([of.shape[1] for of in components])[:-1]
     parts = np.split(made, ends, axis=1)
     return [found.back(part) for found, part in zip(every, parts, strict=True)]
+
+
+def _for_noise(model: CaptureModel, rough_m: float) -> LocalRegression:
+    """Return the model's regression with a ridge for markers that are so rough."""
+    usual = float(model.provenance["roughness_m"])
+    if rough_m < NOISY * usual:
+        return model.regression
+    noise = (rough_m**2 - usual**2) ** 0.5
+    return replace(model.regression, ridge_m=float(np.hypot(model.regression.ridge_m, noise)))
 
 
 def _check_size(markers: Markers, root: InRoot, model: CaptureModel) -> None:

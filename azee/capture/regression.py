@@ -11,9 +11,9 @@ markers only, so they serve everything at once: the other markers, joint angles,
 either. Since Σ h = 1, the way over all components changes nothing. Sums over samples are products
 of matrices, one for many frames: they take most of the time.
 
-A marker that is missing, or trusted in part only, counts by its trust τ: τ of its distance, and its
-coordinates are scaled by τ, so that the ridge keeps its coefficients from growing. Trust that fades
-lets a marker come and go without a jump.
+A marker that is missing, or trusted in part only, counts by its trust τ: τ of its distance, its
+coordinates are scaled by τ, and its ridge goes from λ to a metre squared, evenly in its logarithm.
+So trust that fades lets a marker come and go without a jump.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class LocalRegression:
         x = frames.reshape(t, d) * tau
         middle = (w @ X) * tau
         S = (w @ products).reshape(t, d, d) * tau[:, :, None] * tau[:, None, :]
-        ridge = self.ridge_m**2 * np.eye(d)
+        ridge = self.ridge_m ** (2.0 * tau)[:, :, None] * np.eye(d)
         if self.penalised:
             S = np.block([[np.ones((t, 1, 1)), middle[:, None]], [middle[:, :, None], S + ridge]])
             S[:, 0, 0] += self.ridge_m**2

@@ -2,7 +2,8 @@
 
 They are glued on the forearm or on the back of the hand. The frame of an instant is the rotation
 and shift that bring the shape of these markers onto where they are, in the least squares (Kabsch
-1976). Where fewer than three are seen it is interpolated.
+1976). Where fewer than three are seen, the other markers help: against the root they move little
+while the hand goes through the room. Where fewer than three of all are seen it is interpolated.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ LEAST_SPREAD_M = 0.004
 """How far from one line the markers of a root must lie."""
 OFF = 3.0
 """Markers that fit the shape worse than usual by this factor may be swapped."""
+HELP = 1e-3
+"""Weight of the other markers beside the root's: they are off by millimetres."""
 USUAL_M = 0.002
 """How well the markers of a root fit their shape; skin moves."""
 
@@ -50,7 +53,7 @@ class InRoot:
     """Markers in the root's frame.
 
     positions: (T, M, 3) metres, NaN where one is not seen. rotations (T, 3, 3) and origins (T, 3):
-    the frame in the room. measured: (T,), whether it was, rather than interpolated. off_m: (T,)
+    the frame in the room. measured: (T,), whether the root was seen, rather than guessed. off_m: (T,)
     root mean square of what the root's markers are off their shape.
     """
 
@@ -88,13 +91,17 @@ def root_shape(markers: Markers, names: Sequence[str]) -> RootShape:
     return RootShape(tuple(names), shape)
 
 
-def rigid(shape: Floats, points: Floats) -> tuple[Floats, Floats]:
+def rigid(shape: Floats, points: Floats, weights: Floats | None = None) -> tuple[Floats, Floats]:
     """Rotations (T, 3, 3) and shifts (T, 3) that bring a shape (R, 3) nearest to points (T, R, 3).
 
-    Kabsch 1976: with H = Σ (p − p̄)(s − s̄)ᵀ = U S Vᵀ, R = U diag(1, 1, det U det V) Vᵀ.
+    Kabsch 1976: with H = Σ w (p − p̄)(s − s̄)ᵀ = U S Vᵀ, R = U diag(1, 1, det U det V) Vᵀ.
+
+    Args: weights: w, (R,); by default all alike.
     """
-    middle, centre = shape.mean(axis=0), points.mean(axis=1)
-    H = np.swapaxes(points - centre[:, None], 1, 2) @ (shape - middle)
+    w = np.full(len(shape), 1.0) if weights is None else weights
+    w = w / w.sum()
+    middle, centre = w @ shape, w @ points
+    H = np.swapaxes((points - centre[:, None]) * w[:, None], 1, 2) @ (shape - middle)
     U, _, V = np.linalg.svd(H)
     sign = np.linalg.det(U) * np.linalg.det(V)
     U[:, :, 2] *= sign[:, None]
@@ -130,6 +137,8 @@ def into_root(markers: Markers, shape: RootShape) -> InRoot:
             R[row], origin[row], off[row] = (x[0] for x in _fitted(part, swapped[None]))
             positions[row, np.array(columns)[pattern]] = swapped
     _interpolate(R, origin, measured)
+    if not measured.all():
+        _help(R, origin, measured, positions, shape, columns)
     local = (positions - origin[:, None]) @ R
     return InRoot(markers.names, local, R, origin, measured, off)
 
@@ -147,6 +156,31 @@ def _order(shape: Floats, points: Floats) -> tuple[int, ...]:
     )
     tried = np.stack([points[list(order)] for order in orders])
     return orders[int(_fitted(shape, tried)[2].argmin())]
+
+
+def _help(
+    R: Floats, origin: Floats, measured: Flags, positions: Floats, shape: RootShape,
+    columns: Sequence[int],
+) -> None:  # fmt: skip
+    """Find the frames in which the root is not seen whole by all markers that are seen.
+
+    The others are taken to be where they are in the root before and after, and evenly on the way.
+    """
+    known, gaps = np.flatnonzero(measured), np.flatnonzero(~measured)
+    local = (positions[known] - origin[known, None]) @ R[known]
+    expected = np.full((len(gaps), *positions.shape[1:]), np.nan)
+    for m in range(positions.shape[1]):
+        seen = ~np.isnan(local[:, m, 0])
+        for axis in range(3) if seen.any() else ():
+            expected[:, m, axis] = np.interp(gaps, known[seen], local[seen, m, axis])
+    expected[:, columns] = shape.points
+    weights = np.full(positions.shape[1], HELP)
+    weights[columns] = 1.0
+    for row, guess in zip(gaps, expected, strict=True):
+        use = ~np.isnan(positions[row, :, 0]) & ~np.isnan(guess[:, 0])
+        if use.sum() >= LEAST:
+            turned, shift = rigid(guess[use], positions[row, use][None], weights[use])
+            R[row], origin[row] = turned[0], shift[0]
 
 
 def _interpolate(R: Floats, origin: Floats, measured: Flags) -> None:

@@ -114,6 +114,16 @@ def _faded(missing: NDArray[np.bool_], fade: float) -> Floats:
     return np.asarray(share * share * (3.0 - 2.0 * share))
 
 
+def roughness_of(positions: Floats) -> float:
+    """Return how rough markers (T, m, 3) are, metres: the noise that would explain it.
+
+    Second differences of noise of deviation σ have the deviation √6 σ; the median is not misled by
+    fast moments.
+    """
+    rough = np.abs(np.diff(positions, 2, axis=0))
+    return float(np.nanmedian(rough)) / (0.6745 * np.sqrt(6.0)) if np.isfinite(rough).any() else 0.0
+
+
 def speed_of(positions: Floats, rate_hz: float) -> float:
     """Return the speed that markers (T, m, 3) reach in a tenth of the time, metres a second."""
     if len(positions) < 2:

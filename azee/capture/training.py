@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.capture.calibration import ROUNDS, calibrate
+from azee.capture.calibration import calibrate
 from azee.capture.choosing import by_clusters, by_components, by_regression
 from azee.capture.hand import Hand
 from azee.capture.hand_fit import HandFit
@@ -20,7 +20,7 @@ from azee.capture.places import digit_markers
 from azee.capture.poses import SEED, representatives
 from azee.capture.regression import LocalRegression
 from azee.capture.root_frame import RootShape, into_root, root_shape
-from azee.capture.tracking import speed_of, tracked
+from azee.capture.tracking import roughness_of, speed_of, tracked
 
 Algorithm: TypeAlias = Literal["regression", "clusters", "clusters-printed", "components"]
 ALGORITHMS: tuple[Algorithm, ...] = ("regression", "clusters", "clusters-printed", "components")
@@ -182,7 +182,7 @@ def train(
     columns = poses.columns(list(places))
     few = poses.positions[representatives(poses.positions, SHAPE_POSES)][:, columns]
     runs = list(zip(poses.runs[:-1], poses.runs[1:], strict=True))
-    found = calibrate(few, places, hand, _first(told, len(runs)))
+    found = calibrate(few, places, hand, told)
     shape = found.shape
     fit = HandFit(hand, shape)
     targets = shape.into_palm(poses.positions[:, columns])
@@ -192,7 +192,7 @@ def train(
         reference = np.tile(usual, (stop - start, 1))
         q[start:stop] = fit.solved(targets[start:stop], reference, poses.rate_hz)
         if told:
-            told(ROUNDS + n + 1, ROUNDS + len(runs))
+            told(n + 1, len(runs))
     off = np.linalg.norm(hand.marker_positions(shape, q) - targets, axis=-1)
     return CaptureModel(
         names=poses.names,
@@ -213,6 +213,7 @@ def train(
             "algorithm": algorithm,
             "seed": SEED,
             "speed_m_s": poses.speed_m_s,
+            "roughness_m": roughness_of(poses.positions),
             "fit_off_m": {name: float(x) for name, x in zip(places, off.mean(axis=0), strict=True)},
         },
     )
@@ -230,8 +231,3 @@ def left_open(
     made = how.foretell(known[:, used], unknown[:, used], trust, flat)
     off = made.reshape(unknown.shape) - unknown
     return np.asarray(np.linalg.norm(off, axis=-1).mean(axis=0))
-
-
-def _first(told: Told | None, more: int) -> Told | None:
-    """Return what is to be told of a first part of the work, after which so many more come."""
-    return None if told is None else lambda done, total: told(done, total + more)

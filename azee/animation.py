@@ -188,6 +188,7 @@ def animate(
 
     # 14. Make the clip, measure it and report.
     clip = _clip(score, rig, seconds, q, weights, lead_s)
+    penetration = PenetrationSearch(rig, dominant, schedule, clip.coordinates, seconds)
     excess, joint = limit_excess(q, rig.coordinates)
     report = MotionReport(
         rig=rig.name,
@@ -209,7 +210,7 @@ def animate(
         postures=planned.postures,
         blocks=tuple(block_times(schedule.all, planned.monitor.early_ends)),
         measure_peaks=partial(peaks, q, float(fps), rig.coordinates.names, lead_s),
-        measure_penetration=PenetrationSearch(rig, dominant, schedule, clip.coordinates, seconds),
+        measure_penetration=penetration,
         measure_likeness=partial(
             likeness,
             clip,
@@ -223,6 +224,7 @@ def animate(
         tempo=float(tempo),
         stretched=performance.stretched,
         extra_s=float(performance.extra_s),
+        measure_fingers=penetration.between_fingers,
     )
     key_times = tuple(float(p.time) + lead_s for p in planned.postures)
     by_block = tracks(schedule, planned.postures, selection, rig.coordinates)

@@ -25,6 +25,7 @@ MODULES = {
     "memory": "benchmarks.memory",
     "continuity": "benchmarks.continuity",
     "penetration": "benchmarks.penetration",
+    "spelled-pairs": "benchmarks.spelled_pairs",
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
     "solver": "benchmarks.solver_bench",

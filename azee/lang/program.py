@@ -16,6 +16,7 @@ from azee.lang.library import (
     SHIPPED_RESOLVING,
     Librarian,
     define,
+    mistakes_in_shipped,
     shipped_library,
 )
 from azee.lang.library_folder import Shelf, definitions, own_name
@@ -224,8 +225,8 @@ class Program:
         code = resolver.resolve(expr, frozenset(names))
         try:
             return code.evaluate(Machine(self.limits, self.scope.libraries), names)
-        except Fault as problem:
-            diagnostics += problem.diagnostics
+        except Fault as problem:  # without diagnostics if its mistake was found in resolving a rule
+            diagnostics += problem.diagnostics or mistakes_in_shipped()
             return None
 
     def _span_of(self, origin: Origin) -> Span | None:

@@ -7,7 +7,7 @@ beyond the first are tested, for the first are webbed to it and to each other.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -84,19 +84,26 @@ class _Regions:
 
 
 def mesh_penetration(
-    rig: Rig, q: Array, contacts: Sequence[Contact] = ()
+    rig: Rig, q: Array, contacts: Sequence[Contact] = (), parts: Collection[str] | None = None
 ) -> tuple[Penetration, ...]:
     """Return where arms and digits enter trunk, head, the other arm or each other, deepest first.
 
     Args: q: (V,) coordinates of one posture. contacts: where touching is meant.
+        parts: those that matter, such as `thumb_R`; all by default.
     """
     regions = _regions(rig)
     vertices = rig.skin(rig.pose(q))
-    corners = {name: vertices[triangles] for name, triangles in regions.surfaces.items()}
+    corners = {
+        name: vertices[triangles]
+        for name, triangles in regions.surfaces.items()
+        if parts is None or name in parts
+    }
     boxes = {name: (c.min(axis=(0, 1)), c.max(axis=(0, 1))) for name, c in corners.items()}
     found = []
     for name, limb in regions.limbs.items():
         for body, surface in corners.items():
+            if parts is not None and name not in parts:
+                continue
             if body == name or (name.startswith("arm_") and body.endswith(f"_{limb.side}")):
                 continue
             points = vertices[limb.beyond_web if body.endswith(f"_{limb.side}") else limb.all]

@@ -90,9 +90,9 @@ def measured(pair: str, way_s: float, rig: Rig) -> Way:
     return Way(pair, way_s, fingers, 1000.0 * worst)
 
 
-def ways(chosen: Sequence[str], rig: Rig) -> Iterator[Way]:
-    """Yield what is measured of pairs at all times."""
-    for way_s in WAYS_S:
+def ways(chosen: Sequence[str], times_s: Sequence[float], rig: Rig) -> Iterator[Way]:
+    """Yield what is measured of pairs with ways of some lengths."""
+    for way_s in times_s:
         for pair in chosen:
             yield measured(pair, way_s, rig)
 
@@ -101,13 +101,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Print how many ways lead fingers into fingers, and which."""
     parser = argparse.ArgumentParser(prog="spelled_pairs", description=__doc__)
     parser.add_argument("pairs", nargs="*", help="pairs such as AM; by default all")
+    parser.add_argument("--way", type=float, nargs="*", default=WAYS_S, help="lengths, seconds")
     parser.add_argument("--every", type=int, default=1, help="measure every N-th pair only")
     parser.add_argument("--rig", default="signer")
     parser.add_argument("-o", dest="output", type=Path, metavar="FILE.json")
     options = parser.parse_args(arguments)
     chosen = options.pairs or pairs()[:: options.every]
-    found = [*ways(chosen, load_rig(options.rig))]
-    for way_s in WAYS_S:
+    found = [*ways(chosen, options.way, load_rig(options.rig))]
+    for way_s in options.way:
         own = [way for way in found if way.way_s == way_s]
         deep = sorted(
             (way for way in own if way.depth_mm > 1000.0 * SEEN_M), key=lambda way: -way.depth_mm

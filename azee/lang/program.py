@@ -225,8 +225,9 @@ class Program:
         code = resolver.resolve(expr, frozenset(names))
         try:
             return code.evaluate(Machine(self.limits, self.scope.libraries), names)
-        except Fault as problem:  # without diagnostics if its mistake was found in resolving a rule
-            diagnostics += problem.diagnostics or mistakes_in_shipped()
+        except Fault as problem:
+            diagnostics += problem.diagnostics
+            diagnostics += mistakes_in_shipped()
             return None
 
     def _span_of(self, origin: Origin) -> Span | None:

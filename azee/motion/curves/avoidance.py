@@ -224,13 +224,13 @@ def _merged(
 
 def _smallest_offset(search: OffsetSearch) -> Array | None:
     """Return the offset, (n,) radians; none if it would avoid too little."""
-    depths = search.depths()
+    depths = search.overlaps.depths(search.q, search.axis_distances)
     approach = depths.max(axis=0) - np.maximum(depths[0], depths[-1])
     apart = ~search.overlaps.same_hand
     if not np.any(apart & (depths.max(axis=0) > DEEP_M) & (approach > LEAST_APPROACH_M)):
         return None
     pairs = np.flatnonzero(apart & np.any(depths > -CONSIDERED_M, axis=0))
-    allowed = search.allowed_depths(depths, pairs)
+    allowed = search.allowed_depths(depths[:, pairs], pairs)
     before = float(np.max(depths[:, pairs] - allowed))
     enough = ALLOWED_SHORTFALL * float(np.min(search.clearance[pairs]))
     found = search.smallest(np.zeros(len(search.members)), pairs, allowed, enough)

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.movement import Movement
-from azee.motion.curves.offset_search import CONSIDERED_M, Offset, OffsetSearch
+from azee.motion.curves.offset_search import Offset, OffsetSearch
 from azee.motion.curves.via_points import ViaPoint
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import is_finger
@@ -119,8 +119,8 @@ class FingerPassage:
 
     def _pairs(self, side: str) -> NDArray[np.int64]:
         """Return the pairs of digits of a hand."""
-        own = [f"_{side}_" in self.overlaps.names(p)[0] for p in range(len(self.overlaps.pairs))]
-        return np.flatnonzero(self.overlaps.same_hand & np.array(own))
+        own = np.flatnonzero(self.overlaps.same_hand)
+        return own[[f"_{side}_" in self.overlaps.names(pair)[0] for pair in own.tolist()]]
 
     def _round(self, movement: Movement, way: _Way, side: str) -> Sequence[ViaPoint]:
         """Return the via points with which a way leads round, none if it cannot."""
@@ -143,6 +143,7 @@ class FingerPassage:
     def _offset(
         self, movement: Movement, q: Array, bells: Sequence[ViaPoint], way: _Way, side: str
     ) -> Array | None:
+        """Return the offsets of all via points, one after the other; none if none helps."""
         members = bells[0].members
         weight = np.stack([bell.weight(way.times) for bell in bells])
         step_s = float(way.times[1] - way.times[0])
@@ -164,11 +165,10 @@ class FingerPassage:
             coordinates.lower,
             coordinates.upper,
         )
-        of_hand = self._pairs(side)
-        depths = self.overlaps.depths(q, search.axis_distances)
-        pairs = of_hand[np.any(depths[:, of_hand] > -CONSIDERED_M, axis=0)]
+        pairs = self._pairs(side)
+        depths = self.overlaps.depths(q, search.axis_distances, pairs)
         allowed = search.allowed_depths(depths, pairs)
-        before = float(np.max(depths[:, pairs] - allowed, initial=0.0))
+        before = float(np.max(depths - allowed, initial=0.0))
         if before <= ENOUGH_M:
             return None
         best: Offset | None = None

@@ -94,18 +94,16 @@ class OffsetSearch:
                 break
         return Offset(c, float(np.max(error)))
 
-    def depths(self) -> Array:
-        """Return the depths of all pairs without an offset, (T, P) metres."""
-        return self.overlaps.depths(self.q, self.axis_distances)
-
     def allowed_depths(self, depths: Array, pairs: NDArray[np.int64]) -> Array:
         """Return the depths that pairs may have in the samples, (T, P) metres.
 
         Minus the clearance; but a pair that is nearer at an end of the stretch may be so near
         beside that end, and reaches the clearance by minimum jerk within the share `TAPER`.
+
+        Args: depths: (T, P) those that they have. pairs: their indices.
         """
         clearance = self.clearance[pairs]
-        ends = np.maximum(depths[[0, -1]][:, pairs], -clearance)
+        ends = np.maximum(depths[[0, -1]], -clearance)
         along = np.linspace(0.0, 1.0, len(self.q))[:, None]
         leaving = 1.0 - minimum_jerk(along / TAPER)
         arriving = 1.0 - minimum_jerk((1.0 - along) / TAPER)

@@ -27,6 +27,7 @@ MODULES = {
     "continuity": "benchmarks.continuity",
     "posing": "benchmarks.posing",
     "penetration": "benchmarks.penetration",
+    "spelled-pairs": "benchmarks.spelled_pairs",
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
     "solver": "benchmarks.solver_bench",

@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from azee.lexicon.clearance import cleared
 from azee.lexicon.codes import bulge, direction
 from azee.lexicon.hand_text import Told
-from azee.lexicon.hands import NO_FLIP, Hands, flip_of, flipped, flipped_axis
+from azee.lexicon.hands import NO_FLIP, Hands, changed, flip_of, flipped, flipped_axis
 from azee.lexicon.model import (
     Circle,
     FingerPlay,
@@ -146,6 +147,7 @@ class Mover:
         parts, time_s = [], 0.0
         for i, move in enumerate(moves):
             phrase, hands = self.perform(move, hands, sides, slow)
+            hands = changed(hands, lambda _, hand: cleared(hand), *sides)
             parts.append(phrase.at(time_s))
             time_s += phrase.duration_s
             if i < len(moves) - 1:
@@ -265,6 +267,7 @@ class Mover:
         time_s = 0.0
         for i in range(count):
             phrase, hands = self.perform(move.move, hands, sides, slow * (_AGAIN if i else 1))
+            hands = changed(hands, lambda _, hand: cleared(hand), *sides)
             parts.append(phrase.at(time_s))
             time_s += phrase.duration_s
             last = i == count - 1

@@ -147,12 +147,19 @@ class Mover:
         parts, time_s = [], 0.0
         for i, move in enumerate(moves):
             phrase, hands = self.perform(move, hands, sides, slow)
-            hands = changed(hands, lambda _, hand: cleared(hand), *sides)
+            hands = self._before_body(hands, sides)
             parts.append(phrase.at(time_s))
             time_s += phrase.duration_s
             if i < len(moves) - 1:
                 parts.append(_moments(time_s, hands, sides))
         return joined(time_s, parts), hands
+
+    def _before_body(self, hands: Hands, sides: Sides) -> Hands:
+        """Return hands of which none ends in the body."""
+        before = changed(hands, lambda _, hand: cleared(hand), *sides)
+        if before != hands:
+            self.told("into-the-body", "a movement that would end in the body ends before it")
+        return before
 
     def _together(
         self, pairs: Sequence[tuple[Movement, Sides]], hands: Hands, slow: float
@@ -267,7 +274,7 @@ class Mover:
         time_s = 0.0
         for i in range(count):
             phrase, hands = self.perform(move.move, hands, sides, slow * (_AGAIN if i else 1))
-            hands = changed(hands, lambda _, hand: cleared(hand), *sides)
+            hands = self._before_body(hands, sides)
             parts.append(phrase.at(time_s))
             time_s += phrase.duration_s
             last = i == count - 1

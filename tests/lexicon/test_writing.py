@@ -83,6 +83,14 @@ def test_a_hand_that_moves_into_the_body_stays_before_it(
     assert way == pytest.approx((0.0, 0.0, least - 0.4))
 
 
+def test_a_movement_that_is_cut_short_is_told() -> None:
+    inward = '<directedmotion direction="i" size="big"/>'
+    place = '<location_bodyarm location="chest" contact="close"/>'
+    manual = f"<sign_manual>{POINTING_UP}{place}{inward}</sign_manual>"
+    assert "# Approximated: a movement that would end in the body ends before it." in _rule(manual)
+    assert "Approximated" not in _rule(manual.replace('"i"', '"o"'))
+
+
 def test_a_hand_that_touches_the_body_stays_where_it_is() -> None:
     hand = Hand(
         None, Heading("i"), Heading("l"), Site("PA", "s"), Place((Site("ST"),), touches=True)

@@ -8,7 +8,7 @@ from azee.lexicon.phrase import ArcWay, CircleWay, StraightWay, Way, ZigzagWay
 from azee.lexicon.places import Place
 from azee.lexicon.vectors import Vector, is_close, length
 
-WITHIN_DEGREES = 20
+WITHIN_DEGREES = 24
 WITHIN_M = 0.02
 """How far off a hand may be that stays where it is, or that touches the trunk beside a site."""
 NEAR_SKIN_M = 0.01
@@ -47,7 +47,7 @@ def place_text(hand: Hand, name: str, *, stays: bool) -> list[str]:
     elif place.touches and len(place.sites) == 1 and is_close(place.offset, (0, 0, 0), _LEAST_M):
         text += " 'contact"
     elif place.touches:
-        text += f" 'within {number(WITHIN_M if place.is_at_trunk else NEAR_SKIN_M)}"
+        text += f" 'contact 'within {number(WITHIN_M if place.is_at_trunk else NEAR_SKIN_M)}"
     elif place.is_space and stays:
         text += f" 'within {number(WITHIN_M)}"
     return [text]

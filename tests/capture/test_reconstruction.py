@@ -35,6 +35,7 @@ def made(held_out: Markers, model: CaptureModel) -> Reconstruction:
     return reconstruct(held_out, model)
 
 
+@pytest.mark.slow
 def test_markers_that_are_not_recorded_are_foretold_within_1_3_mm(
     made: Reconstruction, held_out: Markers, model: CaptureModel
 ) -> None:

@@ -38,6 +38,7 @@ from azee_solver.relaxed import RelaxedProblem
 from azee_solver.sequence import GroupSequence
 from azee_solver.solve import solve
 from azee_solver.task import Task
+from azee_solver.tolerance import PAPER
 from azee_solver.widening import least_reach
 
 Array = NDArray[np.float64]
@@ -45,7 +46,7 @@ Array = NDArray[np.float64]
 OPTIONS = SolveOptions(far=False, patience=0, inertia=8.0, explain=False)
 """From where the body is, without a search. With inertia 8 a posture is near the one that compiling
 finds after half a second; with 30 as along a path (ADR 26) elbows lag behind by seconds."""
-YIELDING = 0.01
+YIELDING = 0.001
 """Factor of the weight of what a drag cannot be met with."""
 DEEPER_M = 5e-4
 """An overlap that is deeper by less than it was at the instant is the same."""
@@ -105,8 +106,9 @@ class DragSolver:
     def agreed(self, goals: Mapping[Handle, Target], start: Array) -> Dragged:
         """Return the posture that compiling would find for goals and all that is in force.
 
-        It may be up to 1 cm and 5° from what was dragged: where the rest of the text leaves no
-        comfortable posture, compiling eases constraints (ADR 43).
+        It is up to 1 cm and 5° farther from what was dragged than `start`, a posture (V,): where
+        the rest of the text leaves no comfortable posture, compiling eases constraints (ADR 43). If
+        it would be farther, the posture stays, and the reasons say what is in the way.
         """
         began = time.thread_time()
         binding = self.instant.evaluator.binding
@@ -128,8 +130,10 @@ class DragSolver:
         said = {id(c.task.constraint): c.reason for c in report.constraints if c.reason}
         reasons = {h: said[id(c)] for h, c in asked.items() if id(c) in said}
         overlaps = self._too_deep(self._moving(report.penetration, moved))
-        spent_s = time.thread_time() - began
-        return Dragged(q, self._residuals(asked, q), tuple(overlaps), reasons, spent_s)
+        before, after = self._residuals(asked, start), self._residuals(asked, q)
+        if any(after[h] > before[h] + PAPER.of(c) for h, c in skeletal.items()):
+            q, after, overlaps = start, before, []
+        return Dragged(q, after, tuple(overlaps), reasons, time.thread_time() - began)
 
     def _followed(
         self,

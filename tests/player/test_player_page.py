@@ -101,6 +101,7 @@ def test_a_person_uses_the_page(browser: Node, tmp_path: Path) -> None:
     assert away[3] > back[3] * 1.2
     assert again == home
 
+    assert seen["inaccessible"] == []
     assert seen["mistake"] == ["2:1: there is no rule `:nobody`"]
     assert seen["slow"] == pytest.approx(0.1, abs=1e-6)
     assert all(scrolled <= int(width) for width, scrolled in seen["widths"].items())

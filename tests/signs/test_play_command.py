@@ -19,6 +19,7 @@ from azee.formats import SUFFIXES
 from azee.signs import recordings
 from azee.signs.database import SignDatabase
 from azee.signs.recordings import SignRecordings
+from azee.signs.sign import Sign
 from azee.signs.tables import MOTION
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
@@ -68,7 +69,7 @@ def test_a_movement_is_read_once_and_when_it_is_played(
     read: list[str] = []
     clip = SignDatabase.clip
 
-    def counted(self: SignDatabase, sign: recordings.Sign, rig: Rig) -> Clip:
+    def counted(self: SignDatabase, sign: Sign, rig: Rig) -> Clip:
         read.append(sign.identity.name)
         return clip(self, sign, rig)
 

@@ -188,7 +188,7 @@ def test_a_text_becomes_a_sign_and_comes_back_as_a_recording(db: str, signer: Ri
         (["compile", "-e", "recorded 'b"], "error[damaged-sign]: the movement of `b` is damaged"),
         (["play", "b"], "error[damaged-sign]: the movement of `b` is damaged"),
         (["play", "a", "--db", "none.db"], "error[sign-database]: `none.db`"),
-        (["db", "record", "a", "-e", ":bien :bien"], "error[too-many-arguments]"),
+        (["db", "record", "a", "-e", ":bien :bien"], "error[expected-argument-name]"),
         (["rig", "calibration", "none.bvh"], "error[cannot-read]: there is no file `none.bvh`"),
         (["score", "-e", ":bien", "--shortcuts", "none.txt"], "error[cannot-read]"),
     ],

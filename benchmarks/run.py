@@ -30,6 +30,7 @@ MODULES = {
     "spelled-pairs": "benchmarks.spelled_pairs",
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
+    "capture": "benchmarks.capture",
     "solver": "benchmarks.solver_bench",
 }
 

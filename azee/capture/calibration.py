@@ -12,7 +12,7 @@ stays near the body's own, scaled to the person's size.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -125,30 +125,35 @@ def _shaped(shape: HandShape, hand: Hand, targets: Floats, q: Floats, size: floa
     for d in range(len(DIGITS)):
         on = [k for k, number in enumerate(numbers) if number // 3 == d]
         first = 3 * d
-        expected = [size * offset for offset in hand.own_offsets[first : first + 3]]
-        spread = [np.full(3, BASE_M), *2 * [np.array([SIDE_M, LENGTH_M, SIDE_M])]]
-        for k in on:
-            place, _ = shape.markers[names[k]]
-            expected.append(size * hand.site(place))
-            spread.append(np.full(3, PLACE_M))
-        rows, wanted = [], []
-        for column, k in enumerate(on):
-            bone = numbers[k] % 3
-            A = np.zeros((len(q), 3, 3 * len(expected)))
-            A[:, :, :3] = np.eye(3)
-            for b in range(bone):
-                A[:, :, 3 * (b + 1) : 3 * (b + 2)] = R[:, first + b]
-            place_at = 3 * (3 + column)
-            A[:, :, place_at : place_at + 3] = R[:, first + bone]
-            rows.append(A.reshape(-1, A.shape[2]))
-            wanted.append(targets[:, k].ravel())
+        sites = [hand.site(shape.markers[names[k]][0]) for k in on]
+        prior = size * np.concatenate([*hand.own_offsets[first : first + 3], *sites])
+        rows = _rows(R[:, first : first + 3], [int(numbers[k]) % 3 for k in on])
+        wanted = targets[:, on].swapaxes(0, 1).ravel()
+        spread = np.concatenate([_SPREAD, np.full(3 * len(on), PLACE_M)])
         scale = MARKER_M * np.sqrt(len(q))
-        prior = np.concatenate(expected)
-        own = 1.0 / np.concatenate(spread)
-        A = np.vstack([*(r / scale for r in rows), np.diag(own)])
-        b = np.concatenate([*(w / scale for w in wanted), own * prior])
+        A = np.vstack([rows / scale, np.diag(1.0 / spread)])
+        b = np.concatenate([wanted / scale, prior / spread])
         found = np.linalg.lstsq(A, b, rcond=None)[0].reshape(-1, 3)
         offsets[first : first + 3] = found[:3]
         for column, k in enumerate(on):
             places[names[k]] = (shape.markers[names[k]][0], found[3 + column])
     return replace(shape, offsets=offsets, markers={name: places[name] for name in names})
+
+
+_SPREAD = np.array([*3 * [BASE_M], *2 * [SIDE_M, LENGTH_M, SIDE_M]])
+"""How far offsets of a digit's three joints may differ, (9,) metres."""
+
+
+def _rows(R: Floats, bones: Sequence[int]) -> Floats:
+    """Return where markers on a digit are as linear in three offsets and their own places.
+
+    Args: R: (N, 3, 3, 3) rotations of its bones. bones: of each of its k markers, 0 … 2.
+    Returns: (3 k N, 9 + 3 k), marker by marker.
+    """
+    out = np.zeros((len(bones), len(R), 3, 9 + 3 * len(bones)))
+    for k, bone in enumerate(bones):
+        out[k, :, :, :3] = np.eye(3)
+        for above in range(bone):
+            out[k, :, :, 3 * above + 3 : 3 * above + 6] = R[:, above]
+        out[k, :, :, 9 + 3 * k : 12 + 3 * k] = R[:, bone]
+    return out.reshape(-1, out.shape[3])

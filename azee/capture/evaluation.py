@@ -174,7 +174,8 @@ def evaluate(poses: Poses, *, quick: bool = False, told: Told | None = None) -> 
     for p in counts:
         table |= _table_row(parts, p)
         step()
-    rows, made = [_mean_pose(parts)], {}
+    rows = [_mean_pose(parts)]
+    made: dict[tuple[str, int, str], Floats] = {}
     for name, count, chosen in _choices(parts, step):
         for method in METHODS:
             results = [

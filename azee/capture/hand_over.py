@@ -17,7 +17,7 @@ from azee.clip.clip import Clip
 from azee.clip.resample import at_rate
 from azee.clip.spline import minimum_jerk
 from azee_rig.rig import Rig
-from azee_solver.constraint import BoneAxis, Orient, Place, Relation
+from azee_solver.constraint import BoneAxis, Constraint, Orient, Place, Relation
 from azee_solver.geometry import Bone, JointPoint, Side, Site, Vec, VTranslate
 from azee_solver.solve import solve
 from azee_solver.task import Task
@@ -75,7 +75,7 @@ def _laid(q: Floats, postures: Floats, weight: Floats, hand: Hand, body: Rig) ->
     for name, v in zip(names, hand.columns, strict=True):
         if name in c.index:
             k = c.index[name]
-            q[:, k] += weight * (postures[:, v] - q[:, k])
+            q[:, k] = (1.0 - weight) * q[:, k] + weight * postures[:, v]
     return np.clip(q, c.lower, c.upper)
 
 
@@ -91,7 +91,7 @@ def _showing(body: Rig, side: str) -> Floats:
     outwards, up, forwards = SHOWN_AT
     palm, arm = Bone("palm", own), Bone("arm", own)
     at = VTranslate(JointPoint(arm), Vec(sign * outwards, up, forwards))
-    asked = (
+    asked: tuple[Constraint, ...] = (
         Place(Site("WR", own), at),
         Orient(BoneAxis.DIR, palm, Relation.ALONG, Vec(0.0, 1.0, 0.0)),
         Orient(BoneAxis.NRM, palm, Relation.ALONG, Vec(0.0, 0.0, 1.0)),

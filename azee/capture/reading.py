@@ -57,7 +57,8 @@ def read_markers(
             f"`{path}`: `{said}` is no unit of length", f"--unit may be {', '.join(METRES)}"
         )
     source = f"{path.name} sha256:{hashlib.sha256(data).hexdigest()[:16]}"
-    return _told(path, Markers, names, positions * METRES[unit or said], rate, source)
+    made: Markers = _told(path, Markers, names, positions * METRES[unit or said], rate, source)
+    return made
 
 
 def _told(path: Path, make: Any, *arguments: Any) -> Any:

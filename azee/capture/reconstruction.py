@@ -12,7 +12,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -216,9 +216,13 @@ def _check_size(markers: Markers, root: InRoot, model: CaptureModel) -> None:
     ratio = float(np.nanmedian(apart / model.root.widths_m))
     if abs(ratio - 1.0) > SIZE:
         raise MarkersError(
-            f"the root's markers are {ratio:.3g} times as far apart as the model's",
+            f"the root's markers are {_times(ratio)} times as far apart as the model's",
             "name the unit with --unit, or train a model of this hand with these markers",
         )
+
+
+def _times(ratio: float) -> str:
+    return f"{ratio:.3g}" if ratio < 100.0 else f"{ratio:,.0f}"
 
 
 def _check_speed(track: Tracked, rate_hz: float, used: Sequence[str], model: CaptureModel) -> None:

@@ -53,7 +53,7 @@ class InRoot:
     """Markers in the root's frame.
 
     positions: (T, M, 3) metres, NaN where one is not seen. rotations (T, 3, 3) and origins (T, 3):
-    the frame in the room. measured: (T,), whether the root was seen, rather than guessed. off_m: (T,)
+    the frame in the room. measured: (T,), whether the root was seen whole. off_m: (T,)
     root mean square of what the root's markers are off their shape.
     """
 

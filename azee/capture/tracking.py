@@ -24,6 +24,8 @@ FASTEST_M_S = 4.0
 """No marker moves faster against the root: what does is taken for something else."""
 SHORT_S = 0.1
 """Gaps up to this are interpolated."""
+LAG = 10
+"""Frames over which speeds are measured."""
 FADE_S = 0.15
 """In so long before and after longer gaps the trust in a marker fades."""
 
@@ -125,8 +127,9 @@ def roughness_of(positions: Floats) -> float:
 
 
 def speed_of(positions: Floats, rate_hz: float) -> float:
-    """Return the speed that markers (T, m, 3) reach in a tenth of the time, metres a second."""
-    if len(positions) < 2:
-        return 0.0
-    steps = np.linalg.norm(np.diff(positions, axis=0), axis=-1)
-    return float(np.nanquantile(steps, 0.9)) * rate_hz if np.isfinite(steps).any() else 0.0
+    """Return the speed that markers (T, m, 3) reach in a tenth of the time, metres a second.
+
+    It is measured over `LAG` frames, so that noise does not count.
+    """
+    ways = np.linalg.norm(positions[LAG:] - positions[:-LAG], axis=-1)
+    return float(np.nanquantile(ways, 0.9)) * rate_hz / LAG if np.isfinite(ways).any() else 0.0

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from azee.cli.capture_options import (
-    NAMES,
     hand_options,
     open_markers,
     open_poses,
     reading_options,
     refused,
+    split_names,
     with_extra,
 )
 from azee.cli.console import DONE, bar, news, working
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     help="Second of --over at which FILE starts.",
 )  # fmt: skip
 @click.option(
-    "--markers", "sparse", metavar="A,B,…", type=NAMES,
+    "--markers", "sparse", metavar="A,B,…", callback=split_names,
     help="Markers of FILE to use beside the root's; by default those that the model chose.",
 )  # fmt: skip
 @click.option(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from azee.cli.capture_options import NAMES, hand_options, open_poses, reading_options, refused
+from azee.cli.capture_options import hand_options, open_poses, reading_options, refused, split_names
 from azee.cli.console import DONE, bar, news, show_json
 from azee.cli.outputs import check_outputs, size_of, with_suffix
 from azee.formats import writing
@@ -84,7 +84,7 @@ def choose(
     callback=with_suffix(".npz"), help="Write the model.",
 )  # fmt: skip
 @click.option(
-    "--markers", "chosen", metavar="A,B,…", type=NAMES,
+    "--markers", "chosen", metavar="A,B,…", callback=split_names,
     help="Markers that will be recorded beside the root's; by default they are chosen.",
 )  # fmt: skip
 @_count

@@ -21,19 +21,11 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 UNITS = ("mm", "cm", "m", "inch")
 
 
-class Names(click.ParamType):
-    """Names with commas between them."""
-
-    name = "names"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return a tuple of names."""
-        if isinstance(value, tuple):
-            return value
-        return tuple(name.strip() for name in value.split(",") if name.strip())
-
-
-NAMES = Names()
+def split_names(_: click.Context, __: click.Parameter, value: str | None) -> tuple[str, ...] | None:
+    """Split an option's names at commas."""
+    if value is None:
+        return None
+    return tuple(name.strip() for name in value.split(",") if name.strip())
 
 
 def reading_options(command: Command) -> Command:
@@ -57,12 +49,12 @@ def hand_options(command: Command) -> Command:
     """Add what says which markers are a hand."""
     for option in reversed((
         click.option(
-            "--root", metavar="A,B,C", type=NAMES,
+            "--root", metavar="A,B,C", callback=split_names,
             help="Markers that keep their distances; by default those called hand…, wrist…, "
             "forearm….",
         ),
         click.option(
-            "--hand", "names", metavar="A,B,…", type=NAMES,
+            "--hand", "names", metavar="A,B,…", callback=split_names,
             help="All markers on digits; by default those whose names tell a place on one.",
         ),
     )):  # fmt: skip

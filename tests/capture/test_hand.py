@@ -1,4 +1,4 @@
-"""A person's hand: what is simulated comes back, inside the limits, as the general solver has it."""
+"""A person's hand: what is simulated comes back, inside the limits, as by the general solver."""
 
 from __future__ import annotations
 

@@ -126,7 +126,7 @@ def test_fewer_markers_than_chosen_are_told(held_out: Markers, model: CaptureMod
 
 def test_other_units_hands_and_rates_are_refused(held_out: Markers, model: CaptureModel) -> None:
     tenfold = replace(held_out, positions=10.0 * held_out.positions)
-    with pytest.raises(MarkersError, match="9.99 times as far apart as the model's") as raised:
+    with pytest.raises(MarkersError, match="times as far apart as the model's") as raised:
         reconstruct(tenfold, model)
     assert "--unit" in str(raised.value.remedy)
     with pytest.raises(MarkersError, match="times as fast as in the recordings") as raised:

@@ -128,7 +128,21 @@ _TRUNK_SITES = {
 }
 _UNDER_CHIN: Vector = (0, -0.02, -0.02)
 _BESIDE_M = 0.03
-"""How far beside a part of the face a place beside it is."""
+"""How far beside a part of the face a place beside it is, where nothing touches."""
+_BESIDE = {
+    "forehead": "TE",
+    "eyebrows": "EBe",
+    "eyes": "CB",
+    "uppereyelid": "CB",
+    "lowereyelid": "CB",
+    "nose": "CK",
+    "nostrils": "CK",
+    "cheek": "CB",
+    "lips": "CDL",
+    "upperlip": "CDL",
+    "lowerlip": "CDL",
+}
+"""Sites of the skin beside parts of the face."""
 
 
 def other(hand: str) -> str:
@@ -205,11 +219,13 @@ def _skin(at: str, side: str | None, hand: str) -> Place:
 def _face(at: str, side: str | None, contact: str | None, hand: str) -> Place:
     site = _sited(_FACE_SITES[at], side, hand)
     offset = _UNDER_CHIN if at == "underchin" else ZERO
-    sign = _sign(side)
-    if (side or "").endswith("_beside"):
-        offset = plus(offset, (sign * _BESIDE_M, 0, 0))
+    sign, beside = _sign(side), (side or "").endswith("_beside")
     if contact in ("touch", None):
+        if beside and at in _BESIDE:
+            site = Site(_BESIDE[at], "w" if sign > 0 else "s")
         return Place((site,), offset, touches=True)
+    if beside:
+        offset = plus(offset, (sign * _BESIDE_M, 0, 0))
     away = OFF_FACE_M[contact]
     outward = -1 if site.hand == "s" else 1
     if site.name in ("EAR", "LOBE"):

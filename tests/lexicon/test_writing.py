@@ -139,9 +139,13 @@ def test_only_hands_that_circle_round_each_other_circle_each(more: str, circles:
     assert text.count("circle(") == circles
 
 
-def test_the_ball_of_the_thumb_is_a_site_of_the_thumb() -> None:
+def test_the_ball_of_the_thumb_is_a_site_of_its_own() -> None:
     text = _rule(
         f'<sign_manual>{POINTING_UP}<location_bodyarm location="chin" contact="touch">'
         '<location_hand location="thumbball"/></location_bodyarm></sign_manual>'
     )
-    assert "place @T_INT(s, 1) @CH 'contact" in text
+    assert "place @T_BALL(s) @CH 'contact" in text
+
+
+def test_below_the_chin_is_a_site_of_its_own() -> None:
+    assert body_place(OnBody("underchin", contact="touch")) == Place((Site("CHu"),), touches=True)

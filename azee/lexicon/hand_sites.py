@@ -12,6 +12,7 @@ _WHOLE = {
     "palm": "PA",
     "handback": "H_BACK",
     "pinkyside": "H_EDGE",
+    "thumbball": "T_BALL",
     "wristback": "WR",
     "lowerarm": "F_ARM",
     "elbow": "EL",
@@ -37,8 +38,6 @@ def site_of(part: HandPart, hand: str, fingers: Vector | None, palm: Vector | No
     match part.part:
         case "thumbside":
             return Site("I_KNt", hand, 1)
-        case "thumbball":
-            return Site("T_INT", hand, 1)
         case "palm" if part.side in _OUTER:
             return Site("H_BACK", hand)
         case "wristback" if part.side in _INNER:

@@ -88,7 +88,7 @@ class Place:
 
 TRUNK_SITES = frozenset(("ST", "ABST", "AB"))
 HAND_SITES = words(
-    "PA H_BACK H_EDGE WR WRi WRt I_TIP M_TIP R_TIP L_TIP T_TIP I_PAD M_PAD R_PAD L_PAD T_PAD"
+    "PA H_BACK H_EDGE WR WRi WRt T_BALL I_TIP M_TIP R_TIP L_TIP T_TIP I_PAD M_PAD R_PAD L_PAD T_PAD"
     " I_NA M_NA R_NA L_NA T_NA F_ARM F_ARMi EL ELi ARM"
 )
 
@@ -109,7 +109,7 @@ _FACE_SITES = {
     "tongue": "TO",
     "teeth": "MO",
     "chin": "CH",
-    "underchin": "CH",
+    "underchin": "CHu",
 }
 _BOTH_SIDES = frozenset(("EB", "EYE", "EAR", "LOBE", "CK", "SH"))
 """Sites that there are two of and none in the middle."""
@@ -126,9 +126,22 @@ _TRUNK_SITES = {
     "stomach": "ABST",
     "belowstomach": "AB",
 }
-_UNDER_CHIN: Vector = (0, -0.02, -0.02)
 _BESIDE_M = 0.03
-"""How far beside a part of the face a place beside it is."""
+"""How far beside a part of the face a place beside it is, where nothing touches."""
+_BESIDE = {
+    "forehead": "TE",
+    "eyebrows": "EBe",
+    "eyes": "CB",
+    "uppereyelid": "CB",
+    "lowereyelid": "CB",
+    "nose": "CK",
+    "nostrils": "CK",
+    "cheek": "CB",
+    "lips": "CDL",
+    "upperlip": "CDL",
+    "lowerlip": "CDL",
+}
+"""Sites of the skin beside parts of the face."""
 
 
 def other(hand: str) -> str:
@@ -204,12 +217,14 @@ def _skin(at: str, side: str | None, hand: str) -> Place:
 
 def _face(at: str, side: str | None, contact: str | None, hand: str) -> Place:
     site = _sited(_FACE_SITES[at], side, hand)
-    offset = _UNDER_CHIN if at == "underchin" else ZERO
-    sign = _sign(side)
-    if (side or "").endswith("_beside"):
-        offset = plus(offset, (sign * _BESIDE_M, 0, 0))
+    offset: Vector = ZERO
+    sign, beside = _sign(side), (side or "").endswith("_beside")
     if contact in ("touch", None):
+        if beside and at in _BESIDE:
+            site = Site(_BESIDE[at], "w" if sign > 0 else "s")
         return Place((site,), offset, touches=True)
+    if beside:
+        offset = plus(offset, (sign * _BESIDE_M, 0, 0))
     away = OFF_FACE_M[contact]
     outward = -1 if site.hand == "s" else 1
     if site.name in ("EAR", "LOBE"):

@@ -43,7 +43,14 @@ def test_a_touch_between_two_sites_is_a_contact() -> None:
         f'<sign_manual>{POINTING_UP}<location_bodyarm location="chin" second_location="lips"'
         ' contact="touch"/></sign_manual>'
     )
-    assert "midpoint(@CH, @MO) 'contact 'within .01" in text
+    assert "midpoint(@CH, @MO) 'contact 'within .003" in text
+
+
+def test_a_touch_beside_a_part_of_the_face_is_on_the_skin() -> None:
+    beside = body_place(OnBody("forehead", side="right_beside", contact="touch"))
+    assert beside == Place((Site("TE", "s"),), touches=True)
+    before = body_place(OnBody("forehead", side="right_beside", contact="close"))
+    assert before.sites == (Site("FH", "s"),)
 
 
 def test_between_the_neck_and_the_chin_is_halfway_in_height() -> None:
@@ -132,9 +139,13 @@ def test_only_hands_that_circle_round_each_other_circle_each(more: str, circles:
     assert text.count("circle(") == circles
 
 
-def test_the_ball_of_the_thumb_is_a_site_of_the_thumb() -> None:
+def test_the_ball_of_the_thumb_is_a_site_of_its_own() -> None:
     text = _rule(
         f'<sign_manual>{POINTING_UP}<location_bodyarm location="chin" contact="touch">'
         '<location_hand location="thumbball"/></location_bodyarm></sign_manual>'
     )
-    assert "place @T_INT(s, 1) @CH 'contact" in text
+    assert "place @T_BALL(s) @CH 'contact" in text
+
+
+def test_below_the_chin_is_a_site_of_its_own() -> None:
+    assert body_place(OnBody("underchin", contact="touch")) == Place((Site("CHu"),), touches=True)

@@ -27,6 +27,7 @@ MODULES = {
     "penetration": "benchmarks.penetration",
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
+    "studio": "benchmarks.studio",
     "solver": "benchmarks.solver_bench",
 }
 

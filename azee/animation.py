@@ -26,6 +26,7 @@ from azee.motion.overlay.hanging_arms import yielding_to_leans
 from azee.motion.overlay.labels import labels
 from azee.motion.overlay.life import AFTER_S, BEFORE_S
 from azee.motion.overlay.life import life as life_of
+from azee.motion.overlay.recordings import life_share, recorded_face
 from azee.motion.overlay.saturation import saturated
 from azee.motion.overlay.seed import seed_of
 from azee.motion.overlay.trill import add_trills, oscillation
@@ -34,6 +35,7 @@ from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.key_posture import PostureSolver, Search
 from azee.motion.tasks.key_selection import MODES, KeySelection, Mode
 from azee.motion.tasks.limbs import Limbs
+from azee.motion.tasks.recordings import imposed
 from azee.motion.tasks.schedule import TaskSchedule, bind
 from azee.motion.tasks.tracks import Track, tracks
 from azee.motion.tasks.turning import with_turns
@@ -45,6 +47,7 @@ from azee.motion.timing.ways import Ways
 from azee.quality.likeness import likeness
 from azee.quality.measures import PenetrationSearch, block_times, peaks
 from azee.quality.motion_report import MotionReport, constraint_results, limit_excess
+from azee.quality.recordings import as_played
 from azee.quality.task_spans import task_spans
 from azee.score.provenance import Provenance
 from azee.score.score import Score
@@ -164,7 +167,8 @@ def animate(
     times, lead_s = _frame_times(score.duration, planned.movement, schedule, rate)
     reference = _with_layers(planned, schedule, times, seed if life else None, layered=layered)
     if layered and rest == "hanging":
-        reference = replace(reference, q=reference.q + yielding_to_leans(rig, reference.q, at_rest))
+        aside = np.where(reference.played, 0.0, yielding_to_leans(rig, reference.q, at_rest))
+        reference = replace(reference, q=reference.q + aside)
 
     # 12. Draw it onto the constraints in force; in flat mode it stays as it is.
     if layered:
@@ -184,6 +188,7 @@ def animate(
     if life:
         at = boundaries(score, schedule.all, q, seconds, rig.coordinates)
         weights = _with_blinks(weights, seconds, schedule, at, rig, dominant, seed)
+    weights = weights + recorded_face(schedule.recorded, tuple(rig.units), seconds)
     weights = saturated(_with_lids(weights, q, rig), rig)
 
     # 14. Make the clip, measure it and report.
@@ -215,7 +220,7 @@ def animate(
             clip,
             rig,
             score,
-            task_spans(schedule.all, planned.monitor.early_ends),
+            task_spans(schedule.all, planned.monitor.early_ends, schedule.recorded),
             zero_s=lead_s,
             dominant=dominant,
         ),
@@ -223,8 +228,11 @@ def animate(
         tempo=float(tempo),
         stretched=performance.stretched,
         extra_s=float(performance.extra_s),
+        recordings=tuple(map(as_played, schedule.recorded)),
     )
-    key_times = tuple(float(p.time) + lead_s for p in planned.postures)
+    moments = {float(p.time) for p in planned.postures}
+    moments |= {t for block in schedule.recorded for t in block.moments_s}
+    key_times = tuple(sorted(time + lead_s for time in moments))
     by_block = tracks(schedule, planned.postures, selection, rig.coordinates)
     return Animation(score, clip, report, key_times, lead_s, by_block)
 
@@ -279,8 +287,10 @@ def _with_layers(
     q = planned.movement.sample(seconds)
     accents = accent_layers(schedule.accents, seconds, evaluator)
     if seed is not None and layered:
-        q = q + life_of(evaluator.rig, q, seconds, seed)
-    return Reference(tuple(times), q + accents.offsets, accents.asked)
+        lively = life_share(schedule.recorded, seconds, q.shape[1])
+        q = q + lively * life_of(evaluator.rig, q, seconds, seed)
+    played = imposed(schedule.recorded, times, q.shape[1]).mask
+    return Reference(tuple(times), q + accents.offsets, accents.asked, played)
 
 
 def _with_trills(

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from azee.animation import Animation
     from azee.clip.clip import Clip
     from azee.lang.program import Program
+    from azee.lang.recordings import Recordings
+    from azee.lang.shortcuts import Taken
     from azee.motion.keys.rest import Rest
     from azee.motion.tasks.key_posture import PostureSolver
     from azee.motion.tasks.key_selection import Mode
@@ -52,7 +54,8 @@ class Compilation:
     the clip and the report, and the times of the keys of every part of the body. left_out: a
     warning for each name of a bone, site or morph that the body lacks; constraints with that name
     were left out.
-    unshown: a warning for each movement that is too fast for the clip's frames.
+    unshown: a warning for each movement that is too fast for the clip's frames. shortcuts: the
+    expressions of the text for which recorded signs are played.
     """
 
     score: Score
@@ -60,6 +63,7 @@ class Compilation:
     animation: Animation
     left_out: tuple[Diagnostic, ...] = ()
     unshown: tuple[Diagnostic, ...] = ()
+    shortcuts: tuple[Taken, ...] = ()
 
     @property
     def clip(self) -> Clip:
@@ -89,7 +93,12 @@ class Compilation:
         """Return the report as JSON, with its provenance and messages about what the body lacks."""
         left_out = [{"code": d.code, "message": d.message} for d in self.left_out]
         provenance = self.provenance.as_json() if self.provenance else None
-        return {**self.report.as_json(), "provenance": provenance, "left_out": left_out}
+        return {
+            **self.report.as_json(),
+            "provenance": provenance,
+            "left_out": left_out,
+            "shortcuts": [taken.as_json() for taken in self.shortcuts],
+        }
 
     def save_report(self, path: str | Path) -> None:
         """Write the report as JSON, as docs/formats.md describes it.
@@ -138,6 +147,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     strict_body: bool = False,
     timing: Timing | None = None,
     tempo: float = 1.0,
+    recordings: Recordings | None = None,
 ) -> Compilation:
     """Compile AZee to a signing body.
 
@@ -173,6 +183,8 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
             the report tells where. exact: all times are the text's. By default performed; exact in
             flat mode.
         tempo: how many times faster all is that is not `fixed`, such as 1.2.
+        recordings: where `recorded` finds signs: `azee.signs.recordings.SignRecordings("signs.db")`
+            is a database.
     Raises: AZeeError: the text has mistakes, or has no such utterance; cannot-read: there is no
             such file; bad-manifest: that of a library cannot be read; rig-lacks-bone,
             rig-lacks-site, rig-lacks-morph: the rig lacks something that the text names, and
@@ -190,7 +202,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     require_switch(precise, "precise")
     found = folders(libraries)
     body = rig if isinstance(rig, Rig) else load_rig(rig)
-    program = load(_source(text_or_path), found)
+    program = load(source_of(text_or_path), found, recordings=recordings)
     score = score_of(program, expression, utterance, dominant)
     return perform(
         score,
@@ -255,6 +267,7 @@ def perform(
     from azee.animation import animate
     from azee.clip.resample import TooManyFramesError, frame_count
     from azee.lang.unshowable import beyond_frames
+    from azee.score.recorded_motion import RecordingError
 
     _require_options(dominant, fps, mode, seed, life, rest, solver, timing, tempo)
     require_switch(precise, "precise")
@@ -272,20 +285,23 @@ def perform(
         from azee.motion.keys.two_level import two_level_solver
 
         postures = two_level_solver(rig, side)
-    animation = animate(
-        score,
-        rig,
-        fps=rate(fps),
-        dominant=side,
-        mode=mode,
-        seed=seed,
-        life=life,
-        rest=rest,
-        precise=precise,
-        solver=postures,
-        timing=timing,
-        tempo=float(tempo),
-    )
+    try:
+        animation = animate(
+            score,
+            rig,
+            fps=rate(fps),
+            dominant=side,
+            mode=mode,
+            seed=seed,
+            life=life,
+            rest=rest,
+            precise=precise,
+            solver=postures,
+            timing=timing,
+            tempo=float(tempo),
+        )
+    except RecordingError as error:
+        raise AZeeError(Diagnostic(error.code, error.message, None, help=error.remedy)) from error
     animation = replace(animation, provenance=provenance)
     unshown = tuple(beyond_frames(animation.score, float(fps)))
     return Compilation(animation.score, rig, animation, missing, unshown)
@@ -354,7 +370,11 @@ def _lacking(errors: Sequence[BindingError], rig: Rig, *, strict: bool) -> Diagn
     return Diagnostic(first.code, message, None, notes=written, severity=Severity.WARNING)
 
 
-def _source(text_or_path: str | Path | None) -> Source:
+def source_of(text_or_path: str | Path | None) -> Source:
+    """Return the text that `compile` is given, under the name by which it is reported.
+
+    Raises: AZeeError: there is no such file.
+    """
     from azee_grammar.files import TEXT_SUFFIXES, read_source
     from azee_grammar.source import Source
 

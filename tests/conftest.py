@@ -26,13 +26,18 @@ settings.register_profile(
     database=None,
     suppress_health_check=[HealthCheck.too_slow],
 )
+settings.register_profile("quick", settings.get_profile("repeatable"), max_examples=25)
 settings.register_profile("search", settings.get_profile("repeatable"), derandomize=False)
 settings.register_profile("long", settings.get_profile("search"), max_examples=5000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Keep what programs keep in a folder of these tests alone."""
+    """Keep what programs keep in a folder of these tests alone, and each process to one core.
+
+    Tests run side by side: threads that OpenBLAS starts beside them only wait for each other.
+    """
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     folder = tempfile.mkdtemp(prefix="azee-tests-")
     os.environ["AZEE_CACHE"] = folder
     config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))

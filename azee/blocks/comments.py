@@ -121,6 +121,24 @@ class Notes:
         return out, gone
 
 
+def hand_over(notes: Notes, old: Sequence[Key], new: dict[Key, Note], words: Sequence[Key]) -> None:
+    """Hand what stands around replaced words to those in their place.
+
+    Comments above the first go above the first, a comment beside the last beside the last.
+
+    Args: notes: of the item; changed. old: the words that are replaced. new: notes of what is
+        brought in; changed. words: the words in their place.
+    """
+    first = notes.words[old[0]]
+    there = new.get(words[0], Note())
+    new[words[0]] = replace(there, above=(*first.above, *there.above), spaced=first.spaced)
+    notes.words[old[0]] = replace(first, above=())
+    last, there = notes.words[old[-1]], new.get(words[-1], Note())
+    if last.beside and not there.beside:
+        new[words[-1]] = replace(there, beside=last.beside)
+        notes.words[old[-1]] = replace(last, beside=None)
+
+
 def _inside(inner: Span, outer: Span) -> bool:
     return inner.source is outer.source and outer.start <= inner.start and inner.end <= outer.end
 

@@ -8,8 +8,16 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from azee.blocks.change import TextChange
-from azee.blocks.comments import LAYOUT, Notes, is_word, notes_of_fragment
-from azee.blocks.edits import Delete, Edit, Insert, Move, Rename, SetNumber
+from azee.blocks.comments import (
+    LAYOUT,
+    Key,
+    Note,
+    Notes,
+    hand_over,
+    is_word,
+    notes_of_fragment,
+)
+from azee.blocks.edits import Delete, Edit, Insert, Move, Rename, Replace, SetNumber
 from azee.blocks.fault import cannot_edit
 from azee.blocks.tree import Items, content, node_at
 from azee.blocks.tree_edit import EditedTree, edited
@@ -36,8 +44,10 @@ class ItemText:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Edited:
-    """A text after an edit. change: what became of the text before. gone: comments that the edit
-    took away, because they stood inside what it took away."""
+    """A text after an edit.
+
+    change: what became of the text before. gone: comments that stood inside what was taken away.
+    """
 
     document: Document
     change: TextChange
@@ -132,13 +142,14 @@ class Document:
         Raises: AZeeError: the edit is impossible, or what it would make cannot be read.
         """
         tree = edited(self.nodes, edit)
+        gone: tuple[str, ...] = ()
         match edit:
             case Insert((), row, _):
-                text, gone = self._with_items(row, tree), ()
+                text = self._with_items(row, tree)
             case Delete((), row):
                 text, gone = self._without_item(row)
             case Move((), row, (), to_row):
-                text, gone = self._with_moved_item(row, to_row), ()
+                text = self._with_moved_item(row, to_row)
             case _:
                 text, gone = self._with_changed_items(edit, tree)
         document = Document.of(text, self.source.name)
@@ -147,10 +158,16 @@ class Document:
         return Edited(document, TextChange.between(self.text, text), gone)
 
     def _with_changed_items(self, edit: Edit, tree: EditedTree) -> tuple[str, tuple[str, ...]]:
-        known = dict(pair for item in self.items for pair in item.notes.words.items())
-        left = set().union(*(words_of(item) for item in tree.items if item is not None))
+        left = {word for item in tree.items if item for word in words_of(content(item))}
+        brought: dict[Key, Note] = {}
         for source in tree.sources:
-            known |= notes_of_fragment(source, left)
+            brought |= notes_of_fragment(source, left)
+        if isinstance(edit, Replace):
+            old_words, new_words = (
+                words_of(node_at(items, edit.path)) for items in (self.nodes, tree.items)
+            )
+            hand_over(self.items[edit.path[0]].notes, old_words, brought, new_words)
+        known = {k: note for item in self.items for k, note in item.notes.words.items()} | brought
         text, gone = self.text, list[str]()
         for old, new in reversed([*zip(self.items, tree.items, strict=True)]):
             if new is None or new is old.node:
@@ -171,10 +188,16 @@ class Document:
 
     def _spliced(self, edit: Edit, tree: EditedTree) -> str | None:
         """Return the text of an item with one word changed; None for other edits."""
-        if not isinstance(edit, Rename | SetNumber) or (isinstance(edit, Rename) and edit.slot):
+        if not isinstance(edit, Rename | SetNumber | Replace):
+            return None
+        if isinstance(edit, Rename) and edit.slot:
             return None
         old, new = (node_at(items, edit.path) for items in (self.nodes, tree.items))
         if isinstance(old, Use | Definition) or isinstance(new, Use | Definition):
+            return None
+        if isinstance(edit, Replace) and (
+            Application in (type(old), type(new)) or edit.text.strip() != first_word(new)
+        ):
             return None
         span = old.head.span if isinstance(old, Application) else old.span
         item = self.items[edit.path[0]].span

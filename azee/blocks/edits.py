@@ -141,5 +141,6 @@ def _field(name: str, type_: str, data: object) -> object:
             return data
         case "bool", bool():
             return data
-    kinds = {"Path": "a list of numbers", "int": "a number from 0", "str": "a text"}
-    raise ValueError(f"`{name}` is {kinds.get(type_, 'true or false')}")
+        case _:
+            kinds = {"Path": "a list of numbers", "int": "a number from 0", "str": "a text"}
+            raise ValueError(f"`{name}` is {kinds.get(type_, 'true or false')}")

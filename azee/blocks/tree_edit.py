@@ -88,8 +88,7 @@ def _edited(items: Items, edit: Edit) -> EditedTree:
             at = _offset(_application(items, path), row)
             return EditedTree(_inserted(items, path, at, operands), sources=(source,))
         case Delete((), row):
-            gone = _item(items, row)
-            return EditedTree((*items[:row], *items[row + 1 :]), (gone.span,))
+            return EditedTree((*items[:row], *items[row + 1 :]), (_item(items, row).span,))
         case Delete(path, row):
             node = _application(items, path)
             gone = _row(node, row)
@@ -99,9 +98,9 @@ def _edited(items: Items, edit: Edit) -> EditedTree:
         case Move((), row, (), to_row):
             item = _item(items, row)
             _require(0 <= to_row <= len(items))
-            left = (*items[:row], *items[row + 1 :])
+            others = (*items[:row], *items[row + 1 :])
             to_row -= to_row > row
-            return EditedTree((*left[:to_row], item, *left[to_row:]))
+            return EditedTree((*others[:to_row], item, *others[to_row:]))
         case Move(path, row, to_path, to_row):
             return EditedTree(_moved(items, path, row, to_path, to_row))
         case Rename(path, name, slot):

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from azee.blocks.comments import Comment, Key, Note, Notes, key
-from azee.blocks.tree import Operand
+from azee.blocks.comments import Comment, Key, Note, key
+from azee.blocks.tree import Node, Operand, as_item
 from azee_grammar.format import format_file
 from azee_grammar.source import Source, Span
 from azee_grammar.syntax import (
@@ -35,6 +35,7 @@ from azee_grammar.syntax import (
 
 INDENT = "    "
 _NONE = Note()
+_BEFORE_A_COMMENT = (")", ",", "")
 
 
 def written(item: Item, notes: Mapping[Key, Note], after: Sequence[Comment], name: str) -> str:
@@ -50,11 +51,11 @@ def written(item: Item, notes: Mapping[Key, Note], after: Sequence[Comment], nam
     return format_file(Source(name, f"{writer.text}\n")).rstrip("\n")
 
 
-def words_of(item: Item) -> set[Key]:
-    """Return the words of an item."""
+def words_of(node: Node) -> list[Key]:
+    """Return the words of a node, in order."""
     writer = _Writer({})
-    writer.item(item)
-    return writer.written
+    writer.item(as_item(node))
+    return [*writer.written]
 
 
 def first_word(node: Expr) -> str:
@@ -69,23 +70,25 @@ class _Writer:
     """
 
     def __init__(self, notes: Mapping[Key, Note]) -> None:
-        self.written: set[Key] = set()
+        self.written: dict[Key, None] = {}
         self._parts: list[str] = []
         self._notes = notes
         self._indent = INDENT
         self._line_ends = 0  # to be written before the next part
+        self._waiting: Comment | None = None  # to be written behind the last part
 
     @property
     def text(self) -> str:
         """What was written."""
-        return "".join(self._parts)
+        waiting = f"  {self._waiting.text}" if self._waiting else ""
+        return "".join(self._parts) + waiting
 
     def item(self, item: Item) -> None:
         match item:
             case Use(span=span, library=library):
                 self._word("use", span)
                 self._put(" ", f"'{library.name}")
-                self.written.add(key(library.span))
+                self.written.setdefault(key(library.span))
                 self._beside(library.span)
             case Definition():
                 self._definition(item)
@@ -95,7 +98,7 @@ class _Writer:
     def _definition(self, item: Definition) -> None:
         self._word("def", item.span)
         self._put(" ", item.name)
-        self.written.add(key(item.name_span))
+        self.written.setdefault(key(item.name_span))
         self._beside(item.name_span)
         self._indent = INDENT
         for name, text in item.entries:
@@ -142,7 +145,7 @@ class _Writer:
         head = expr.head.span
         self._above(head)
         self._put(_head(expr.head), "(")
-        self.written.add(key(head))
+        self.written.setdefault(key(head))
         self._beside(head)
         for i, operand in enumerate(expr.operands):
             self._put(", " if i else "")
@@ -160,7 +163,7 @@ class _Writer:
     def _word(self, text: str, span: Span) -> None:
         self._above(span)
         self._put(text)
-        self.written.add(key(span))
+        self.written.setdefault(key(span))
         self._beside(span)
 
     def _above(self, span: Span) -> None:
@@ -171,10 +174,8 @@ class _Writer:
             self._line(spaced=note.spaced)
 
     def _beside(self, span: Span) -> None:
-        note = self._notes.get(key(span), _NONE)
-        if note.beside:
-            self._put("  ", note.beside.text)
-            self._line()
+        """Write a comment behind a word, and behind the parentheses that close there."""
+        self._waiting = self._notes.get(key(span), _NONE).beside
 
     def comment(self, comment: Comment) -> None:
         """Write a comment on a line of its own."""
@@ -189,6 +190,10 @@ class _Writer:
 
     def _put(self, *parts: str) -> None:
         for part in parts:
+            if self._waiting and part.strip() not in _BEFORE_A_COMMENT:
+                self._parts.append(f"  {self._waiting.text}")
+                self._waiting = None
+                self._line()
             if self._line_ends:
                 if not part or part.isspace():
                     continue

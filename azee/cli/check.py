@@ -11,7 +11,13 @@ import click
 
 from azee.cli.body import load_body
 from azee.cli.console import DONE, FAULT, as_json, has_errors, news, show, show_json
-from azee.cli.text import Text, expression_option, library_option
+from azee.cli.text import (
+    Text,
+    expression_option,
+    library_option,
+    recordings_option,
+    shortcuts_option,
+)
 from azee.compilation import lacks
 from azee.wording import counted
 from azee_grammar.diagnostic import AZeeError, Severity
@@ -27,6 +33,8 @@ if TYPE_CHECKING:
 @expression_option
 @library_option
 @click.option("--rig", metavar="R", help="Also look whether this body has all that is named.")
+@recordings_option
+@shortcuts_option
 @click.option("--strict-body", is_flag=True, help="What the body lacks is an error, not a warning.")
 @click.option(
     "--trust", is_flag=True, help="Also count how far the forms of the rules applied are known."

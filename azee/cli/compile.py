@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -172,6 +173,7 @@ def compile_(
                     tempo=tempo,
                     provenance=text.provenance,
                 )
+                made = replace(made, shortcuts=text.shortcuts_taken)
             watch.split(made.report)
             for path in outputs:
                 progress.now(f"Writing {path} …")

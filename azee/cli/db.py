@@ -19,6 +19,8 @@ from azee.cli.db_place import (
     sign_options,
     usual_place,
 )
+from azee.cli.db_record import record
+from azee.cli.db_reposition import reposition
 from azee.cli.outputs import check_outputs, size_of, with_suffix
 from azee.formats import CLIP_WRITERS, writing
 from azee_grammar.diagnostic import AZeeError, Diagnostic
@@ -38,6 +40,8 @@ def db() -> None:
 
 
 db.add_command(add)
+db.add_command(record)
+db.add_command(reposition)
 
 
 @db.command(short_help="Make a database, or bring an older one up to date.")

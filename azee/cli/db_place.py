@@ -11,6 +11,7 @@ import click
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 if TYPE_CHECKING:
+    from azee.score.recorded_motion import RecordingError
     from azee.signs.database import SignDatabase
     from azee.signs.fault import SignsError
 
@@ -44,6 +45,8 @@ def in_words() -> Iterator[None]:
 
     Raises: AZeeError: not-installed, and the codes of `SignsError`.
     """
+    from azee.score.recorded_motion import RecordingError
+
     try:
         from azee.signs.fault import SignsError
 
@@ -59,7 +62,7 @@ def in_words() -> Iterator[None]:
         ) from error
     try:
         yield
-    except SignsError as error:
+    except (SignsError, RecordingError) as error:
         raise AZeeError(as_diagnostic(error)) from error
 
 
@@ -69,7 +72,7 @@ def import_signs() -> None:
     import sqlalchemy  # noqa: F401
 
 
-def as_diagnostic(error: SignsError) -> Diagnostic:
+def as_diagnostic(error: SignsError | RecordingError) -> Diagnostic:
     """Return what is wrong as a diagnostic."""
     return Diagnostic(error.code, error.message, None, help=error.remedy)
 

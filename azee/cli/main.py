@@ -30,6 +30,7 @@ from azee.cli.gloss import gloss
 from azee.cli.lexicon import lexicon
 from azee.cli.lsp import lsp
 from azee.cli.manifest import manifest
+from azee.cli.play import play
 from azee.cli.pose import pose
 from azee.cli.render import render
 from azee.cli.repl import repl
@@ -72,6 +73,7 @@ azee.add_command(manifest)
 azee.add_command(rig)
 azee.add_command(retarget)
 azee.add_command(repl)
+azee.add_command(play)
 azee.add_command(spell)
 azee.add_command(studio)
 azee.add_command(study)

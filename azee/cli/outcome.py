@@ -12,6 +12,7 @@ from azee.wording import counted
 
 if TYPE_CHECKING:
     from azee.compilation import Compilation
+    from azee.lang.shortcuts import Taken
     from azee.quality.motion_report import ConstraintResult
 
 
@@ -23,6 +24,7 @@ def outcome_lines(made: Compilation, written: Sequence[Path]) -> str:
     lines = [
         f"{length}, {counted(len(report.postures), 'key posture')}",
         *longer(report),
+        *map(_shortcut, made.shortcuts),
         *_iterations(made),
         outcome(report) + (":" if fallen_short else ""),
         *map(_shortfall, fallen_short),
@@ -45,6 +47,10 @@ def _iterations(made: Compilation) -> list[str]:
     more = sum(count > 1 for count in took)
     hard = f"{more} took more than one, the hardest {max(took)}"
     return [f"{counted(len(took), 'IK problem')} in {counted(sum(took), 'iteration')}; {hard}"]
+
+
+def _shortcut(taken: Taken) -> str:
+    return f"{taken.span}: {taken.recording} is played for {taken.text}"
 
 
 def _shortfall(result: ConstraintResult) -> str:

@@ -98,12 +98,17 @@ def pose(
 
     Exit codes: 0 done, 1 mistakes or nothing that can be done, 2 wrong use.
     """
+    from azee.posing.handle import checked_target
     from azee.posing.session import PosingSession
 
     if not (drags or moves or morphs):
         raise click.UsageError("say what to drag: --drag, --by or --morph")
     if chosen is not None and file == "-":
         raise click.UsageError("--apply writes into FILE, and standard input is none")
+    for part, *target in (*drags, *moves):
+        checked_target(part, target, weight=False)
+    for name, weight in morphs:
+        checked_target(name, (weight,), weight=True)
     body = load_body(rig)
     with working("Solving …"):
         session = PosingSession.open(

@@ -16,6 +16,7 @@ import click
 from azee.cli.body import load_body
 from azee.cli.console import DONE, MISSED, news, show_json, working
 from azee.cli.outputs import check_outputs, with_suffix
+from azee.cli.rig_calibration import calibration
 from azee.cli.rig_import import import_
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ def rig() -> None:
 
 
 rig.add_command(import_)
+rig.add_command(calibration)
 
 
 @rig.command()

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from azee.compilation import Hand
     from azee.lang.library_folder import Shelf
     from azee.lang.program import Program
+    from azee.lang.recordings import Recordings
+    from azee.lang.shortcuts import Shortcuts, Taken
     from azee.lang.written import Written
     from azee.score.provenance import Provenance
     from azee.score.score import Score
@@ -78,8 +80,38 @@ def timing_options(command: Command) -> Command:
     return timing(tempo(command))
 
 
+def _note(ctx: click.Context, parameter: click.Parameter, value: object) -> None:
+    ctx.meta[f"azee.{parameter.name}"] = value
+
+
+def _noted(name: str) -> Any:
+    context = click.get_current_context(silent=True)
+    return context.meta.get(f"azee.{name}") if context else None
+
+
+recordings_option = click.option(
+    "--db",
+    metavar="DB",
+    envvar="AZEE_DB",
+    expose_value=False,
+    callback=_note,
+    help="The database whose signs `recorded` plays: a file, or a URL. By default that of AZEE_DB.",
+)
+"""`--db DB`, of every command that evaluates a text; `Text.read` uses it."""
+
+shortcuts_option = click.option(
+    "--shortcuts",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    expose_value=False,
+    callback=_note,
+    help="Expressions for which recorded signs are played: lines such as `:bonjour => 'BONJOUR`.",
+)
+"""`--shortcuts FILE`, of the same commands."""
+
+
 def text_options(command: Command) -> Command:
-    """Add the argument FILE and the options -e, --utterance and --library to a command."""
+    """Add the argument FILE and the options -e, --utterance, --library and --db to a command."""
     options = (
         click.argument("file", required=False, metavar="[FILE]"),
         expression_option,
@@ -90,6 +122,8 @@ def text_options(command: Command) -> Command:
             help="Only FILE's Nth utterance; by default all play, one after the other.",
         ),
         library_option,
+        recordings_option,
+        shortcuts_option,
     )
     for option in reversed(options):
         command = option(command)
@@ -103,6 +137,7 @@ class Text:
     program: Program
     expression: str | None
     utterance: int | None
+    shortcuts: Shortcuts | None = None
 
     @classmethod
     def read(
@@ -126,7 +161,14 @@ class Text:
         if expression is not None and utterance is not None:
             raise click.UsageError("--utterance counts FILE's own and does not go with -e")
         source = Source("<none>", "") if file is None else read_source(file)
-        return cls(load(source, libraries, shelf=shelf), expression, utterance)
+        program = load(source, libraries, shelf=shelf, recordings=_recordings())
+        path = _noted("shortcuts")
+        if path is None:
+            return cls(program, expression, utterance)
+        from azee.lang.shortcuts import Shortcuts
+
+        shortcuts = Shortcuts.read(read_source(path))
+        return cls(shortcuts.on(program), expression, utterance, shortcuts)
 
     def score(self, dominant: Hand = "right") -> Score:
         """Evaluate what is wanted. Raises: AZeeError: all that is wrong with it."""
@@ -152,9 +194,26 @@ class Text:
         return provenance_of(self.applications)
 
     @property
+    def shortcuts_taken(self) -> tuple[Taken, ...]:
+        """The expressions for which recordings are played, once they are evaluated."""
+        return self.shortcuts.taken if self.shortcuts else ()
+
+    @property
     def warnings(self) -> tuple[Diagnostic, ...]:
         """What else there is to say about the text, then about the expression."""
         found = self.program.check()
         if self.expression is None:
             return found
         return (*found, *self.program.evaluate(self.expression).warnings)
+
+
+def _recordings() -> Recordings | None:
+    """Return the recorded signs of the database that the command line names."""
+    place = _noted("db")
+    if place is None:
+        return None
+    from azee.cli.db_place import in_words
+
+    with in_words():
+        from azee.signs.recordings import SignRecordings
+    return SignRecordings(place)

@@ -14,7 +14,11 @@ the first up to a beyond its end; so the sum is over Dᵢ − a (ADR 35).
 
 `linear` is T′ exactly; its speed jumps at both ends of a blend (§5.1.3). `smooth` replaces the
 linear weight by minimum jerk. Its first and second derivatives are zero at both ends, so that T′ is
-C².
+C². In both, hands that fall in a decay and rise in an attack still fall half the way. `direct`
+leaves out what the two do meanwhile: from where the blend starts to where it ends leads one
+movement of least jerk, which takes over the velocity at both ends (`azee.clip.quintic`).
+
+Overlaps need not be the same everywhere: sign n then has its own aₙ with the next.
 """
 
 from __future__ import annotations
@@ -22,19 +26,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from azee.clip.clip import Clip
 from azee.clip.edit import shifted
+from azee.clip.quintic import STEP_S, State, quintic
 from azee.clip.resample import EVEN_S, frame_count, rate, sampled
 from azee.clip.spline import minimum_jerk
 from azee_rig.coordinates import Coordinates
 
 Array = NDArray[np.float64]
-Blend = Literal["linear", "smooth"]
+Blend = Literal["linear", "smooth", "direct"]
 
 ROOT = 6
 """Number of parameters of a root joint: its place and its turn."""
@@ -56,24 +61,30 @@ class Concatenation:
     """T′(t) of some clips: a movement that can be sampled at any time from 0 to `duration_s`.
 
     clips: at least one; the times of all count from 0.
-    overlap_s: a, the length of attacks and decays; 0 sets the clips end to end.
+    overlap_s: a, the length of attacks and decays, or one for each two neighbours; 0 sets clips end
+    to end.
     """
 
     clips: tuple[Clip, ...]
     coordinates: Coordinates
-    overlap_s: float = 0.0
+    overlap_s: float | tuple[float, ...] = 0.0
     blend: Blend = "smooth"
 
     def __post_init__(self) -> None:
         if not self.clips:
             raise ValueError("there is no clip to join")
-        if not (np.isfinite(self.overlap_s) and self.overlap_s >= 0.0):
-            raise ValueError(f"clips cannot overlap by {self.overlap_s:g} s")
-        if self.blend not in ("linear", "smooth"):
-            raise ValueError(f"there is no blend '{self.blend}'; there are: linear, smooth")
+        blends = get_args(Blend)
+        if self.blend not in blends:
+            raise ValueError(f"there is no blend '{self.blend}'; there are: {', '.join(blends)}")
+        if isinstance(self.overlap_s, tuple) and len(self.overlap_s) != len(self.clips) - 1:
+            raise ValueError("there is not one overlap for each two neighbours")
+        given = self.overlap_s if isinstance(self.overlap_s, tuple) else (self.overlap_s,)
+        for overlap_s in given:
+            if not (np.isfinite(overlap_s) and overlap_s >= 0.0):
+                raise ValueError(f"clips cannot overlap by {overlap_s:g} s")
+        around = (0.0, *self.overlaps_s, 0.0)
         for n, clip in enumerate(self.clips):
-            blends = (n > 0) + (n < len(self.clips) - 1)
-            needed = blends * self.overlap_s
+            needed = around[n] + around[n + 1]
             if clip.duration_s < needed * (1.0 - 1e-12):
                 raise ValueError(
                     f"clip {n + 1} lasts {clip.duration_s:g} s, less than the {needed:g} s "
@@ -83,9 +94,16 @@ class Concatenation:
         object.__setattr__(self, "clips", at_zero)
 
     @property
+    def overlaps_s(self) -> tuple[float, ...]:
+        """How long each clip but the last is blended with the next."""
+        if isinstance(self.overlap_s, tuple):
+            return self.overlap_s
+        return (float(self.overlap_s),) * (len(self.clips) - 1)
+
+    @property
     def starts_s(self) -> tuple[float, ...]:
         """Start times of the clips: 0, E′₁, …, E′ₘ₋₁."""
-        lengths = [clip.duration_s - self.overlap_s for clip in self.clips[:-1]]
+        lengths = [c.duration_s - a for c, a in zip(self.clips, self.overlaps_s, strict=False)]
         return tuple(float(e) for e in np.cumsum([0.0, *lengths]))
 
     @property
@@ -102,17 +120,33 @@ class Concatenation:
         """Return T′ at increasing times (T,): coordinates and weights of `units`, (T, V + M)."""
         t = np.asarray(times, dtype=np.float64)
         out = np.zeros((len(t), len(self.coordinates) + len(self.units)))
-        starts = self.starts_s
+        starts, overlaps = self.starts_s, self.overlaps_s
         for n, (clip, start) in enumerate(zip(self.clips, starts, strict=True)):
             weight = np.ones_like(t)
             if n > 0:
-                weight = self._weight(t - start)
+                weight = self._weight(t - start, overlaps[n - 1])
             if n < len(self.clips) - 1:
-                weight = weight - self._weight(t - starts[n + 1])
+                weight = weight - self._weight(t - starts[n + 1], overlaps[n])
             used = weight != 0.0
             if used.any():
                 out[used] += weight[used, None] * self._parameters(clip, t[used] - start)
+        if self.blend == "direct":
+            self._lead_over(t, out)
         return out
+
+    def _lead_over(self, t: Array, out: Array) -> None:
+        """Fill in the times of blends with movements from the one clip to the other."""
+        for n, (a, start) in enumerate(zip(self.overlaps_s, self.starts_s[1:], strict=True)):
+            inside = (t >= start) & (t < start + a)
+            if inside.any():
+                leaving = self._state(self.clips[n], self.clips[n].duration_s - a)
+                arriving = self._state(self.clips[n + 1], a)
+                out[inside] = quintic(leaving, arriving, a, t[inside] - start)
+
+    def _state(self, clip: Clip, time_s: float) -> State:
+        """Return the state of a clip at a time, (V + M,) each; at its very ends it stands."""
+        around = np.array([time_s - STEP_S, time_s, time_s + STEP_S])
+        return State.between(*self._parameters(clip, around))
 
     def clip(self, times: ArrayLike) -> Clip:
         """Return T′ as a clip with frames at some times; labels keep their clips' own times."""
@@ -131,11 +165,11 @@ class Concatenation:
             tuple(sorted(found, key=lambda x: (x.start_s, x.depth))),
         )
 
-    def _weight(self, since: Array) -> Array:
+    def _weight(self, since: Array, overlap_s: float) -> Array:
         """Return the weight of a clip at a time after its start, before its decay; 1 from a on."""
-        if self.overlap_s == 0.0:
+        if overlap_s == 0.0 or self.blend == "direct":
             return np.where(since >= 0.0, 1.0, 0.0)
-        share = np.clip(since / self.overlap_s, 0.0, 1.0)
+        share = np.clip(since / overlap_s, 0.0, 1.0)
         return share if self.blend == "linear" else minimum_jerk(share)
 
     def _parameters(self, clip: Clip, times: Array) -> Array:

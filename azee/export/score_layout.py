@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from azee.score.interval import Interval
-from azee.score.score import Blank, Group, Hold, Key, Score, leaves
+from azee.score.score import Blank, Group, Hold, Key, Recorded, Score, leaves
 from azee_solver.notation import constraint_text
 
 LEAF_HEIGHT = 28.0
@@ -37,6 +37,8 @@ class Box:
                 return (f"hold '{block}: {', '.join(channels)}",)
             case Blank():
                 return ("blank",)
+            case Recorded(motion=motion):
+                return (f"recorded '{motion.name}'",)
             case Group():
                 return ()
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from azee.lang.fault import Exhausted, Fault
 from azee.lang.procedure import Applicable, Procedure
+from azee.lang.recordings import Recordings
 from azee.lang.scope import Namespace
 from azee.lang.values import OperatorValue, ScoreValue, Value
 from azee.score.score import Call, came_from
@@ -41,14 +42,19 @@ HEAVY = 5
 class Machine:
     """Evaluates within limits. One machine serves one utterance."""
 
-    __slots__ = ("_results", "depth", "libraries", "limits", "steps")
+    __slots__ = ("_results", "depth", "libraries", "limits", "recordings", "steps")
 
     def __init__(
-        self, limits: Limits = DEFAULT_LIMITS, libraries: Sequence[Namespace] = ()
+        self,
+        limits: Limits = DEFAULT_LIMITS,
+        libraries: Sequence[Namespace] = (),
+        recordings: Recordings | None = None,
     ) -> None:
         self.limits = limits
         self.libraries = libraries
         """What the evaluated text uses: rules of other libraries find these by name."""
+        self.recordings = recordings
+        """Where `recorded` finds signs."""
         self.steps = 0
         self.depth = 0
         self._results: dict[Procedure, Value] = {}

@@ -21,6 +21,7 @@ from azee.lang.library import (
 from azee.lang.library_folder import Shelf, definitions, own_name
 from azee.lang.machine import DEFAULT_LIMITS, Limits, Machine
 from azee.lang.places import declare_places, utterances
+from azee.lang.recordings import Recordings
 from azee.lang.resolve import Resolving
 from azee.lang.rule import Rule
 from azee.lang.scope import Namespace, Scope
@@ -71,6 +72,9 @@ class Program:
     shelf: Shelf = field(default_factory=Shelf)
     shares_shelf: bool = False
     """Whether who loaded it keeps the indices of libraries, after several texts."""
+    recordings: Recordings | None = None
+    rewrite: Callable[[Expr, Scope], Expr] | None = None
+    """What is done to an expression before it is resolved: shortcuts."""
 
     @property
     def utterances(self) -> tuple[UtteranceScore, ...]:
@@ -221,9 +225,11 @@ class Program:
     ) -> Value | None:
         """Resolve and evaluate; None after a mistake, which is then reported."""
         resolver = self.resolving.resolver(self.scope, None, diagnostics)
+        if self.rewrite is not None:
+            expr = self.rewrite(expr, self.scope)
         code = resolver.resolve(expr, frozenset(names))
         try:
-            return code.evaluate(Machine(self.limits, self.scope.libraries), names)
+            return code.evaluate(Machine(self.limits, self.scope.libraries, self.recordings), names)
         except Fault as problem:
             diagnostics += problem.diagnostics
             return None
@@ -255,6 +261,7 @@ def load(
     read: Callable[[Path], Source] = read_source,
     place: Path | None = None,
     shelf: Shelf | None = None,
+    recordings: Recordings | None = None,
 ) -> Program:
     """Parse a text and the libraries it uses; nothing is evaluated yet.
 
@@ -264,11 +271,12 @@ def load(
         read: reads the texts of libraries; an editor has newer versions than the disk.
         place: the file of the text, by default the one of the source's name, if it exists.
         shelf: the indices of libraries, if several texts are read while no file changes.
+        recordings: where `recorded` finds signs.
     """
     parsed = parse(source)
     shared = shelf is not None
     shelf = shelf or Shelf()
-    resolving = Resolving(Machine(limits))
+    resolving = Resolving(Machine(limits, recordings=recordings))
     core = shipped_library(CORE).namespace
     librarian = Librarian(tuple(libraries), resolving, core, read, shelf)
     namespace = Namespace(None)
@@ -296,6 +304,7 @@ def load(
         beside,
         shelf,
         shared,
+        recordings,
     )
 
 

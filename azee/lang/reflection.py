@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
-from azee.score.score import SIDE_CHANNELS, Group, Hold, Key, Score
+from azee.score.score import SIDE_CHANNELS, Group, Hold, Key, Recorded, Score
 from azee_grammar import vocabulary
 from azee_solver.constraint import (
     Constraint,
@@ -93,6 +93,12 @@ class Change:
             return replace(score, blocks=tuple(blocks))
         if isinstance(score, Hold):
             return replace(score, channels=tuple(self._channel(name) for name in score.channels))
+        if isinstance(score, Recorded):
+            return self.recorded(score)
+        return score
+
+    def recorded(self, score: Recorded) -> Recorded:
+        """Return a recorded sign changed; of itself it has neither sides nor places."""
         return score
 
     def _channel(self, name: str) -> str:
@@ -142,6 +148,10 @@ class Mirror(Change):
     def place(self, place: SigningSpace) -> SigningSpace:
         """Return the place on the other side."""
         return _SWAPPED_PLACES.get(place, place)
+
+    def recorded(self, score: Recorded) -> Recorded:
+        """Return the sign as the other hand signs it."""
+        return replace(score, mirrored=not score.mirrored)
 
     def constraint(self, constraint: Constraint) -> Constraint:
         """Return the mirror image; rotations change their sense.

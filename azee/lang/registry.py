@@ -13,6 +13,7 @@ from azee.lang.operators import (
     lists,
     mouthing,
     paths,
+    recordings,
     rules,
     score_changes,
     scores,
@@ -34,6 +35,7 @@ NATIVES: Mapping[str, Native] = {
         scores,
         score_changes,
         mouthing,
+        recordings,
         sides,
     )
     for native in module.OPERATORS

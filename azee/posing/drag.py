@@ -1,6 +1,6 @@
 """Postures that follow what is dragged, one after the other, as fast as a screen shows them.
 
-Each is solved from the one before and drawn to it thirty times more than to the reference, which is
+Each is solved from the one before and drawn to it eight times more than to the reference, which is
 where compiling would draw the body: the neutral posture. So a posture changes little from frame to
 frame and ends where the text will have it. Whatever is in force stays in force beside what is
 dragged; what is dragged goes first. The trunk stays where it is, unless it is what is dragged:
@@ -10,8 +10,8 @@ people do not lean for what their arms can reach, and compiling would not lean e
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -25,21 +25,32 @@ from azee.posing.sites import SiteMap
 from azee_rig.rig import Rig
 from azee_solver import kinematics
 from azee_solver.anatomy import Anatomy, Part, anatomy
-from azee_solver.collisions import Overlap
-from azee_solver.constraint import Constraint, Morph
+from azee_solver.collisions import Obstacles, Overlap
+from azee_solver.comfort import MARGIN_RAD
+from azee_solver.constraint import Constraint, Morph, Place
 from azee_solver.footprint import footprint
 from azee_solver.geometry import Site
+from azee_solver.moment import Moment
 from azee_solver.options import SolveOptions
+from azee_solver.relaxed import RelaxedProblem
+from azee_solver.sequence import GroupSequence
 from azee_solver.solve import solve
-from azee_solver.solve_report import SolveReport
 from azee_solver.task import Task
+from azee_solver.widening import least_reach
 
 Array = NDArray[np.float64]
 
-INERTIA = 30.0
-"""As for the paths of `benchmarks.continuity` (ADR 26)."""
+OPTIONS = SolveOptions(far=False, patience=0, inertia=8.0, explain=False)
+"""From where the body is, without a search. With inertia 8 a posture is near the one that compiling
+finds after half a second; with 30 as along a path (ADR 26) elbows lag behind by seconds."""
+YIELDING = 0.01
+"""Factor of the weight of what a drag cannot be met with."""
+DEEPER_M = 5e-4
+"""An overlap that grows by less from one frame to the next is the same."""
 TOUCH_M = 0.02
 """A point so near to a site of the skin may be touched there."""
+AHEAD = (0.0, 0.0, 1.0)
+"""A point or direction that stands for any."""
 FIRST = Fraction(-1)
 """When what is dragged starts, for the order of constraints: before all others."""
 
@@ -49,8 +60,8 @@ class Dragged:
     """A posture in which handles are where they were dragged to, as far as the body allows.
 
     q: (V,) radians. residuals: of each handle, metres or radians; 0 for weights. overlaps: of parts
-    of the body that the drag moves, beyond what is tolerated. reasons: why a handle misses its target, where asked
-    for. solve_s: processor time that it took.
+    of the body that the drag moves, beyond what is tolerated. reasons: why a handle misses its
+    target, where that was asked for. solve_s: processor time that it took.
     """
 
     q: Array
@@ -77,31 +88,121 @@ class DragSolver:
 
         Args: goals: where each handle should be. explain: find out why handles miss; takes longer.
         """
-        instant = self.instant
         began = time.thread_time()
         free, linked = self.linked(frozenset(goals))
         asked = {handle: self._constraint(handle, target) for handle, target in goals.items()}
         skeletal = {h: c for h, c in asked.items() if not self._is_facial(c)}
-        tasks = [
-            *(Task(c, ("drag",), FIRST, rank) for rank, c in enumerate(skeletal.values())),
-            *ik_tasks_at(linked, instant.time),
-        ]
+        beside = ik_tasks_at(linked, self.instant.time)
+        q, overlaps = self._followed(list(skeletal.values()), beside, start, free)
+        if self._entered(overlaps, start, skeletal.values()):
+            kept = [self._kept(c, start) for c in skeletal.values()]
+            q, overlaps = self._followed(kept, beside, start, free)
+            if self._entered(overlaps, start, kept):
+                q, overlaps = np.array(start), []
+        spent_s = time.thread_time() - began
+        reasons = self._reasons(skeletal, beside, q, free) if explain else {}
+        return Dragged(q, self._residuals(asked, q), tuple(overlaps), reasons, spent_s)
+
+    def _followed(
+        self,
+        asked: Sequence[Constraint],
+        beside: Sequence[Task],
+        start: Array,
+        free: frozenset[int],
+    ) -> tuple[Array, list[Overlap]]:
+        """Return the posture that does what is asked, and what of the body overlaps in it.
+
+        These are steps 1 to 5 of the solver. Where what is in force keeps a handle from its target,
+        it gets little weight, and the steps are made once more.
+        """
+        tasks = [*_tasks(asked), *beside]
+        moment = self._moment(tasks, start, free)
+        relaxed, reach = RelaxedProblem(moment), least_reach(moment)
+        sequence = GroupSequence(moment, relaxed)
+        solution = sequence.solve(reach)
+        if beside and any(i < len(asked) for i in solution.missed()):
+            relaxed.given_up |= dict.fromkeys(range(len(asked), len(tasks)), YIELDING)
+            solution = sequence.solve(reach, solution)
+        q = np.clip(solution.q, self._rig.coordinates.lower, self._rig.coordinates.upper)
+        found = self._moving(moment.body.obstacles.overlaps(q), free)
+        return q, [o for o in found if o.depth_m > OPTIONS.overlap_m]
+
+    def _moment(self, tasks: Sequence[Task], start: Array, free: frozenset[int]) -> Moment:
+        fixed = frozenset(range(len(start))) - free
+        dominant = self.instant.evaluator.binding.dominant
+        options = replace(OPTIONS, fixed=fixed)
+        moment = Moment(self._rig, tasks, dominant, start, self._reference(free), options)
+        moment.body.limits = self._comfortable(moment.start)
+        return moment
+
+    def _comfortable(self, start: Array) -> tuple[Array, Array]:
+        """Return limits of the coordinates, (V,) each, a little short of the body's.
+
+        Compiling would go as far for comfort's sake, and not to the limits themselves. Where the
+        body is farther already, it need not come back.
+        """
+        coordinates = self._rig.coordinates
+        narrow = coordinates.upper - coordinates.lower < 2.0 * MARGIN_RAD
+        short = np.where(narrow, 0.0, MARGIN_RAD)
+        short[sorted(self.anatomy.of(Part.HAND, Part.EYES))] = 0.0
+        lower = np.minimum(coordinates.lower + short, start)
+        return lower, np.maximum(coordinates.upper - short, start)
+
+    def _reasons(
+        self,
+        asked: Mapping[Handle, Constraint],
+        beside: Sequence[Task],
+        q: Array,
+        free: frozenset[int],
+    ) -> dict[Handle, str]:
+        """Find out why handles miss their targets, by the whole solver."""
         report = solve(
             self._rig,
-            tasks,
-            dominant=instant.evaluator.binding.dominant,
-            start=start,
+            [*_tasks(asked.values()), *beside],
+            dominant=self.instant.evaluator.binding.dominant,
+            start=q,
             reference=self._reference(free),
-            options=SolveOptions(
-                far=False,
-                patience=0,
-                explain=explain,
-                inertia=INERTIA,
-                fixed=frozenset(range(len(start))) - free,
-            ),
+            options=replace(OPTIONS, explain=True, fixed=frozenset(range(len(q))) - free),
         )
-        spent_s = time.thread_time() - began
-        return self._dragged(skeletal, asked, report, free, spent_s)
+        said = {id(c.task.constraint): c.reason for c in report.constraints if c.reason}
+        return {h: said[id(c)] for h, c in asked.items() if id(c) in said}
+
+    def _entered(
+        self, overlaps: Sequence[Overlap], start: Array, asked: Iterable[Constraint]
+    ) -> bool:
+        """Whether a part that moves has gone deeper into another than it was."""
+        if not overlaps:
+            return False
+        binding = self.instant.evaluator.binding
+        before = Obstacles(binding, self.anatomy, [*asked, *self._others]).overlaps(start)
+        was = {(o.first, o.second): o.depth_m for o in before}
+        return any(
+            o.depth_m > was.get((o.first, o.second), OPTIONS.overlap_m) + DEEPER_M for o in overlaps
+        )
+
+    def _kept(self, constraint: Constraint, start: Array) -> Constraint:
+        """Return what is asked of a posture that may stay where it is.
+
+        A site may be as far from its target as it is, and is drawn there as far as nothing is in
+        the way: so a hand slides along the body.
+        """
+        if not isinstance(constraint, Place):
+            return constraint
+        evaluator = self.instant.evaluator
+        frames = kinematics.frames(self._rig.chain, start)
+        residual, _ = evaluator.residual(constraint, frames, start)
+        return replace(constraint, within_m=float(residual) / evaluator.scale + DEEPER_M)
+
+    @property
+    def _others(self) -> Iterator[Constraint]:
+        return (task.constraint for task in self.instant.tasks)
+
+    def _moving(self, overlaps: Iterable[Overlap], free: frozenset[int]) -> list[Overlap]:
+        """Return those overlaps in which a part is that coordinates move."""
+        moved = self.anatomy.moved_by(free)
+        names, nodes = self._rig.capsules.names, self._rig.capsules.node
+        moving = {name for name, node in zip(names, nodes, strict=True) if moved[node]}
+        return [o for o in overlaps if {o.first, o.second} & moving]
 
     def linked(self, handles: frozenset[Handle]) -> tuple[frozenset[int], tuple[TimedTask, ...]]:
         """Return the coordinates that drags of handles may move, and the tasks that go along.
@@ -132,9 +233,7 @@ class DragSolver:
 
     def _own(self, handle: Handle) -> frozenset[int]:
         """Coordinates of the limbs that a handle is on, without the trunk that carries them."""
-        example = constraint_of(
-            handle, (1.0,) if isinstance(handle, MorphHandle) else (0.0, 0.0, 1.0)
-        )
+        example = constraint_of(handle, (1.0,) if isinstance(handle, MorphHandle) else AHEAD)
         if self._is_facial(example):
             return frozenset()
         binding = self.instant.evaluator.binding
@@ -145,9 +244,7 @@ class DragSolver:
         return carried or movers
 
     def _constraint(self, handle: Handle, target: Target) -> Constraint:
-        touching = ()
-        if isinstance(handle, SiteHandle):
-            touching = self.touched(handle, target)
+        touching = self.touched(handle, target) if isinstance(handle, SiteHandle) else ()
         return constraint_of(handle, target, touching)
 
     def touched(self, handle: SiteHandle, target: Target) -> tuple[Site, ...]:
@@ -173,23 +270,17 @@ class DragSolver:
         binding = self.instant.evaluator.binding
         return isinstance(constraint, Morph) and not binding.is_skeletal(constraint)
 
-    def _dragged(
-        self,
-        skeletal: Mapping[Handle, Constraint],
-        asked: Mapping[Handle, Constraint],
-        report: SolveReport,
-        free: frozenset[int],
-        spent_s: float,
-    ) -> Dragged:
-        residuals = dict.fromkeys(asked, 0.0)
-        reasons = {}
-        for handle, constraint in skeletal.items():
-            found = next(c for c in report.constraints if c.task.constraint is constraint)
-            residuals[handle] = 0.0 if isinstance(constraint, Morph) else found.residual
-            if found.reason:
-                reasons[handle] = found.reason
-        moved = self.anatomy.moved_by(free)
-        names, nodes = self._rig.capsules.names, self._rig.capsules.node
-        moving = {name for name, node in zip(names, nodes, strict=True) if moved[node]}
-        overlaps = tuple(o for o in report.penetration if {o.first, o.second} & moving)
-        return Dragged(report.coordinates, residuals, overlaps, reasons, spent_s)
+    def _residuals(self, asked: Mapping[Handle, Constraint], q: Array) -> dict[Handle, float]:
+        evaluator = self.instant.evaluator
+        frames = kinematics.frames(self._rig.chain, q)
+        return {
+            handle: 0.0
+            if isinstance(constraint, Morph)
+            else float(evaluator.residual(constraint, frames, q)[0])
+            for handle, constraint in asked.items()
+        }
+
+
+def _tasks(asked: Iterable[Constraint]) -> list[Task]:
+    """Return what is dragged as tasks, before all others."""
+    return [Task(constraint, ("drag",), FIRST, rank) for rank, constraint in enumerate(asked)]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from azee.lang.program import Program
-from azee.lang.values import BoneValue, SiteValue
+from azee.lang.values import BoneValue, ConstraintsValue, SiteValue
 from azee.posing.fault import cannot_pose
 from azee_grammar.diagnostic import AZeeError
 from azee_solver.constraint import (
@@ -91,14 +93,33 @@ def read_handle(text: str, program: Program) -> Handle:
 
 
 def _morph(name: str, side: str | None, program: Program) -> MorphHandle:
-    from azee.lang.values import ConstraintsValue
-
     given = f" {side}" if side else ""
     value = program.value(f"morph '{name}{given} 1", "the handle")
     assert isinstance(value, ConstraintsValue)
     (morph,) = value.content
     assert isinstance(morph, Morph)
     return MorphHandle(morph.name, morph.side)
+
+
+FARTHEST = 5.0
+"""No drag goes beyond so many metres; a screen has an edge."""
+HEAVIEST = 2.0
+"""The greatest weight of a morph, to either side."""
+
+
+def checked_target(name: str, target: Sequence[float], *, weight: bool) -> Target:
+    """Return the target of a handle: three numbers, or a weight.
+
+    Raises: AZeeError: cannot-pose: it is none, or out of all reach.
+    """
+    numbers = tuple(float(x) for x in target)
+    if len(numbers) != (1 if weight else 3) or not all(map(math.isfinite, numbers)):
+        kind = "a weight" if weight else "three numbers"
+        raise AZeeError(cannot_pose(f"`{name}` is dragged to {kind}"))
+    most = HEAVIEST if weight else FARTHEST
+    if max(map(abs, numbers)) > most:
+        raise AZeeError(cannot_pose(f"`{name}` is dragged too far: at most {most:g}"))
+    return numbers
 
 
 def constraint_of(handle: Handle, target: Target, touching: tuple[Site, ...] = ()) -> Constraint:

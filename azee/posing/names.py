@@ -7,7 +7,7 @@ would call the same, and how much there is to read.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
 
@@ -151,9 +151,12 @@ class PointNamer:
         offset = (point - self._evaluator.point(base, self._frames)) / self._evaluator.scale
         right = self._evaluator.binding.dominant is Side.RIGHT
         outwards = -offset[0] if right else offset[0]
-        parts = [(offset[1], UP, DOWN), (offset[2], FORWARD, BACK)]
         sideways: Vector = Out(Side.STRONG)
-        parts.append((outwards, sideways, Opp(sideways)))
+        parts: list[tuple[float, Vector, Vector]] = [
+            (offset[1], UP, DOWN),
+            (offset[2], FORWARD, BACK),
+            (outwards, sideways, Opp(sideways)),
+        ]
         steps = [
             Scale(there if length > 0 else back, round(round(abs(length) / STEP_M) * STEP_M, 4))
             for length, there, back in parts
@@ -220,10 +223,8 @@ def direction_names(
     found: list[tuple[Vector, float]] = [(v, 0.0) for v in basis]
     pairs = (*product(basis[:2], basis[2:]), *product(basis[2:4], basis[4:]))
     found += ((VSum(pair), 1.0) for pair in pairs)
-    if bone is not None and bone.name == "palm":
-        for other in (Bone("f_arm", bone.side), Bone("palm", bone.side and bone.side.opposite)):
-            for axis in (Dir(other), *((Nrm(other),) if other.name == "palm" else ())):
-                found += [(axis, 0.6), (Opp(axis), 0.8)]
+    for axis in _axes_beside(bone):
+        found += [(axis, 0.6), (Opp(axis), 0.8)]
     unit = direction / np.linalg.norm(direction)
     found += (
         (Vec(*(np.round(unit, digits) + 0.0).tolist()), 2.4 + digits / 10) for digits in (2, 3)
@@ -235,3 +236,11 @@ def direction_names(
             text = in_azee(vector_text(vector))
             names.setdefault(text, DirectionName(text, off, cost + (off / SAME_RAD) ** 2))
     return sorted(names.values(), key=lambda name: name.cost)
+
+
+def _axes_beside(bone: Bone | None) -> Sequence[Vector]:
+    """Return the axes of other bones that a hand is compared with."""
+    if bone is None or bone.name != "palm" or bone.side is None:
+        return ()
+    other = Bone("palm", bone.side.opposite)
+    return Dir(Bone("f_arm", bone.side)), Dir(other), Nrm(other)

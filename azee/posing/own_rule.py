@@ -6,12 +6,19 @@ from collections.abc import Sequence
 
 from azee.blocks.document import Document
 from azee.blocks.edits import Insert, Replace
-from azee.blocks.tree import Path, children, content
+from azee.blocks.tree import content
 from azee.lang.program import Program
 from azee.lang.rule import Rule
 from azee.lang.scope import AmbiguousRule
-from azee_grammar.syntax import Application, Definition
+from azee.posing.text import PosedText
+from azee_grammar.syntax import Definition, Use
 from azee_solver.constraint import Origin
+
+_ENTRIES = {
+    "status": "placeholder",
+    "source": "changed by hand from {library}, where it says: {text}",
+}
+"""Entries of a rule that is no longer as its library has it: nobody's testimony."""
 
 
 def with_own_rules(
@@ -39,17 +46,11 @@ def with_own_rules(
         scope = rule.scope
     if not any(changed for _, changed in copies):
         return None
-    at = next((i for i, n in enumerate(document.nodes) if not isinstance(n, Definition)), 0)
-    at = max(at, sum(_is_use(n) for n in document.nodes))
+    rules = (Use, Definition)
+    at = next((i for i, n in enumerate(document.nodes) if not isinstance(n, rules)), 0)
     for text, _ in reversed(copies):
         document = document.apply(Insert((), at, text)).document
     return document
-
-
-def _is_use(node: object) -> bool:
-    from azee_grammar.syntax import Use
-
-    return isinstance(node, Use)
 
 
 def _copy(rule: Rule, origin: Origin, constraint: str) -> tuple[str, bool]:
@@ -60,22 +61,12 @@ def _copy(rule: Rule, origin: Origin, constraint: str) -> tuple[str, bool]:
     i = next(
         i for i, n in enumerate(document.nodes) if n is not None and content(n).span.start == start
     )
-    changed = False
-    if source.name == origin.file and (path := _path_at(document, i, origin)) is not None:
-        document = document.apply(Replace(path, constraint)).document
-        changed = True
-    return document.items[i].span.text, changed
-
-
-def _path_at(document: Document, i: int, origin: Origin) -> Path | None:
-    item = document.nodes[i]
-    assert item is not None
-    left: list[tuple[Path, object]] = [((i,), content(item))]
-    while left:
-        path, node = left.pop()
-        if isinstance(node, Application):
-            head = node.head.span
-            if (head.line, head.column) == (origin.line, origin.column):
-                return path
-        left += [((*path, k), child) for k, child in enumerate(children(node))]  # type: ignore[arg-type]
-    return None
+    path = PosedText(document).path_of(origin)
+    if path is None or path[0] != i:
+        return document.items[i].span.text, False
+    document = document.apply(Replace(path, constraint)).document
+    for n, (name, text) in enumerate(rule.definition.entries):
+        if name.name in _ENTRIES:
+            entry = _ENTRIES[name.name].format(library=rule.library, text=text.text)
+            document = document.apply(Replace((i, n), f'"{entry}"')).document
+    return document.items[i].span.text, True

@@ -20,18 +20,27 @@ from azee.posing.handle import (
     SiteHandle,
     Target,
 )
+from azee.posing.handshapes import shape_names
 from azee.posing.instant import Instant
 from azee.posing.moving_rules import of_rules
 from azee.posing.names import PointName, PointNamer, direction_names, in_azee, rounded
+from azee.posing.replaced import is_same
 from azee.posing.sites import SiteMap
-from azee.posing.spots import Spot, beside_others, in_force, new_block, replacing
+from azee.posing.spots import (
+    Spot,
+    beside_others,
+    in_force,
+    instead_of_shape,
+    new_block,
+    replacing,
+)
 from azee.posing.text import PosedText
 from azee_grammar.diagnostic import AZeeError
-from azee_rig.chain import Frames
-from azee_solver.binding import EYES
-from azee_solver.constraint import Place
+from azee_solver import kinematics
+from azee_solver.binding import EYES, Binding
+from azee_solver.constraint import Constraint, Morph, Place
 from azee_solver.evaluate import angle
-from azee_solver.geometry import Vec
+from azee_solver.geometry import Side, Vec
 from azee_solver.notation import number_text, part_text, vector_text
 
 Array = NDArray[np.float64]
@@ -69,6 +78,7 @@ class Proposal:
     cost: float
     before: Document
     spot: Spot
+    binding: Binding
 
     @cached_property
     def document(self) -> Document:
@@ -111,21 +121,24 @@ class Proposing:
         self,
         text: PosedText,
         instant: Instant,
-        frames: Frames,
+        q: Array,
         sites: Mapping[Handle, SiteMap],
     ) -> None:
-        """Know the posture: its frames, and the sites that may be named for each handle."""
+        """Know the posture q (V,), and the sites that may be named for each handle."""
+        frames = kinematics.frames(instant.evaluator.rig.chain, q)
+        self._q = q
         self._text, self._instant, self._frames = text, instant, frames
         self._sites = sites
         self._evaluator = instant.evaluator
         self._sound: dict[Spot, bool] = {}  # by spot: what is written there differs little
 
     def proposals(self, handle: Handle, target: Target) -> list[Proposal]:
-        """Return all proposals for a handle, the best first; those that cannot be read are left out.
+        """Return all proposals for a handle that can be written, the best first.
 
         Args: target: where it was dragged to.
         """
-        unit = {SiteHandle: "m", MorphHandle: None}.get(type(handle), "rad")
+        units = {SiteHandle: "m", MorphHandle: None}
+        unit = units.get(type(handle), "rad")
         found = [
             Proposal(
                 handle,
@@ -138,9 +151,9 @@ class Proposing:
                 spot.cost + naming.cost,
                 self._text.document,
                 spot,
+                self._evaluator.binding,
             )
-            for spot in self._spots(handle)
-            for naming in self._namings(spot, handle, target)
+            for spot, naming in self._written(handle, target)
         ]
         found.sort(key=lambda proposal: proposal.cost)
         return [proposal for proposal in found if self._can_be_written(proposal)]
@@ -159,8 +172,34 @@ class Proposing:
                 self._sound[spot] = False
         return self._sound[spot] and edited.text != proposal.before.text
 
+    def _written(self, handle: Handle, target: Target) -> Iterator[tuple[Spot, Naming]]:
+        """Yield what may be written where."""
+        spots = [*self._spots(handle)]
+        for spot in spots:
+            for naming in self._namings(spot, handle, target):
+                yield spot, naming
+        if isinstance(handle, MorphHandle) and handle.side is not None:
+            shaped = [*instead_of_shape(self._text, self._instant, handle)]
+            for spot in shaped or [spot for spot in spots if spot.kind != "replace"]:
+                for naming in self._shapes(handle.side):
+                    yield spot, naming
+
+    def _shapes(self, side: Side) -> Iterator[Naming]:
+        dominant = self._evaluator.binding.dominant
+        strong = side.bound(dominant) is dominant
+        word, hand = (Side.STRONG, "strong") if strong else (Side.WEAK, "weak")
+        for name in shape_names(self._text.program, self._evaluator, self._q, word)[:EACH]:
+            fixes = f"the shape of the {hand} hand"
+            yield Naming(name.text, name.off_rad, fixes, 0.5 + name.cost)
+
     def _spots(self, handle: Handle) -> Iterator[Spot]:
         own, foreign = in_force(self._text, self._instant, handle)
+        if isinstance(handle, MorphHandle):
+            # Weights add up: beside another morph of the same part there is nothing to write.
+            others = bool(own or foreign)
+            own, foreign = [(t, p) for t, p in own if self._is_same(handle, t.constraint)], []
+            if others and not own:
+                return
         if own:
             yield replacing(self._text, handle, *own[0])
         elif foreign:
@@ -168,6 +207,10 @@ class Proposing:
         else:
             yield from beside_others(self._text, self._instant, handle)
             yield new_block(self._text, self._instant)
+
+    def _is_same(self, handle: MorphHandle, constraint: Constraint) -> bool:
+        binding = self._evaluator.binding
+        return isinstance(constraint, Morph) and is_same(handle, constraint, binding)
 
     def _namings(self, spot: Spot, handle: Handle, target: Target) -> Iterator[Naming]:
         if spot.wants != "constraint":

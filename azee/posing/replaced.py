@@ -22,21 +22,36 @@ def is_replaced(constraint: Constraint, handle: Handle, binding: Binding) -> boo
     """Whether a constraint gives way to what is dragged.
 
     A placement does if its site is on the same hand, or on the same bone elsewhere; an orientation
-    if it is of the same axis of the same bone; all gazes do; a morph if it is the same one.
+    if it is of the same axis of the same bone; all gazes do; a morph if it is the same one or moves
+    the same joints, since the angles of morphs add up.
     """
     match handle, constraint:
         case SiteHandle(site), Place(site=other):
             one, two = (binding.site(s).bone for s in (site, other))
-            return one == two or _hand(one) is not None and _hand(one) == _hand(two)
+            return one == two or (_hand(one) is not None and _hand(one) == _hand(two))
         case BoneHandle(bone, axis), Orient(axis=other_axis, bone=other_bone):
             dominant = binding.dominant
             return axis is other_axis and bone.key(dominant) == other_bone.key(dominant)
         case GazeHandle(), Look() | LookAt():
             return True
-        case MorphHandle(name, side), Morph() as morph:
-            return Morph(name, side, 0.0).key(binding.dominant) == morph.key(binding.dominant)
+        case MorphHandle(), Morph() as morph:
+            return is_same(handle, morph, binding) or bool(
+                _joints(Morph(handle.name, handle.side, 1.0), binding) & _joints(morph, binding)
+            )
         case _, Place() | Orient() | Look() | LookAt() | Morph() | Rotate() | Trill() | Transpath():
             return False
+
+
+def is_same(handle: MorphHandle, morph: Morph, binding: Binding) -> bool:
+    """Whether a morph is the one of a handle, with whatever weight."""
+    dominant = binding.dominant
+    return Morph(handle.name, handle.side, 0.0).key(dominant) == morph.key(dominant)
+
+
+def _joints(morph: Morph, binding: Binding) -> frozenset[int]:
+    if not (binding.has(morph) and binding.is_skeletal(morph)):
+        return frozenset()
+    return frozenset(binding.preset(morph))
 
 
 def _hand(bone: str) -> str | None:

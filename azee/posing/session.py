@@ -12,36 +12,44 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee.blocks.document import Document
-from azee.compilation import Compilation, Hand, compile
+from azee.compilation import Compilation, Hand, perform, source_of
+from azee.motion.tasks.flatten import flatten
 from azee.posing.drag import Dragged, DragSolver
 from azee.posing.fault import cannot_pose
-from azee.posing.handle import Handle, MorphHandle, SiteHandle, Target, read_handle
+from azee.posing.handle import (
+    Handle,
+    MorphHandle,
+    SiteHandle,
+    Target,
+    checked_target,
+    read_handle,
+)
 from azee.posing.instant import Instant
 from azee.posing.proposal import Proposal, Proposing
+from azee.posing.replaced import is_replaced
 from azee.posing.text import PosedText
+from azee.score.interval import Interval
+from azee.score.score import Score
 from azee_grammar.diagnostic import AZeeError
-from azee_grammar.files import read_source
+from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver import kinematics
 from azee_solver.body_words import capsule_words
+from azee_solver.collisions import Overlap
 from azee_solver.constraint import Morph
 from azee_solver.geometry import Side
 
 Array = NDArray[np.float64]
 
-FARTHEST_M = 5.0
-"""No drag goes beyond this; a screen has an edge."""
 MET_M, MET_RAD = 1e-3, math.radians(0.5)
 """What counts as there."""
-HEAVIEST = 2.0
-"""The greatest weight of a morph, to either side."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -119,11 +127,10 @@ class PosingSession:
 
         Raises: AZeeError: the text has mistakes; cannot-pose: there is no such instant.
         """
-        made = compile(
-            text_or_path, rig, utterance=utterance, libraries=libraries, dominant=dominant
-        )
-        found = tuple(map(Path, libraries))
-        return cls(PosedText(_document(text_or_path), found, utterance, dominant), made, at_s)
+        document = Document(source_of(text_or_path))
+        text = PosedText(document, tuple(map(Path, libraries)), utterance, dominant)
+        body = rig if isinstance(rig, Rig) else load_rig(rig)
+        return cls(text, perform(text.score, body, dominant=dominant), at_s)
 
     # Dragging ---------------------------------------------------------------------------------
 
@@ -137,7 +144,9 @@ class PosingSession:
         Raises: AZeeError: cannot-pose: it is no such target.
         """
         known = self.handle(handle)
-        self._goals[known] = _checked(known, target)
+        self._goals[known] = checked_target(
+            str(known), target, weight=isinstance(known, MorphHandle)
+        )
         done = self._solve(explain=explain)
         return self._frame(known, done)
 
@@ -195,10 +204,7 @@ class PosingSession:
             handle,
             place,
             done.residuals[handle],
-            tuple(
-                f"{capsule_words(o.first)} is {o.depth_m * 1000:.0f} mm in {capsule_words(o.second)}"
-                for o in done.overlaps
-            ),
+            tuple(map(_in_words, done.overlaps)),
             done.reasons.get(handle),
             done.solve_s,
         )
@@ -243,43 +249,48 @@ class PosingSession:
             goals = {h: t for h, t in goals.items() if h == known}
         if not goals:
             raise AZeeError(cannot_pose("nothing was dragged"))
-        frames = kinematics.frames(self._rig.chain, self._q)
         sites = {h: self._solver.sites(frozenset({h})) for h in goals}
-        proposing = Proposing(self.text, self.instant, frames, sites)
+        proposing = Proposing(self.text, self.instant, self.q, sites)
         found = [p for h, target in goals.items() for p in proposing.proposals(h, target)]
         return sorted(found, key=lambda proposal: proposal.cost)
 
     def opened_with(self, proposal: Proposal) -> PosingSession:
-        """Return a session on the text with a proposal, compiled anew, at the same instant."""
+        """Return a session on the text with a proposal, compiled anew.
+
+        It is at the same instant, or where what was written is in force if it is not then: a hand
+        that has farther to go gets more time, and all that follows moves.
+        """
         text = self.text.with_document(proposal.document)
-        made = compile(
-            text.source.text,
-            self.made.rig,
-            utterance=text.utterance,
-            libraries=text.libraries,
-            dominant=text.dominant,
-        )
-        return PosingSession(text, made, self.at_s)
+        made = perform(text.score, self.made.rig, dominant=text.dominant)
+        when = _written_at(made.score, proposal)
+        inside = when is None or when.start <= Fraction(self.at_s) <= when.end
+        at_s = self.at_s if inside or when is None else float(when.start + when.end) / 2
+        return PosingSession(text, made, at_s)
 
 
-def _document(text_or_path: str | Path) -> Document:
-    from azee.compilation import _source
+def _written_at(score: Score, proposal: Proposal) -> Interval | None:
+    """Return when the constraint is in force that a proposal writes or has its target changed."""
+    change, source = proposal.change, proposal.document.source
+    first, last = (
+        source.position(offset)[0] for offset in (change.start, change.start + len(change.insert))
+    )
+    task = proposal.spot.task
+    for found in flatten(score).requirements:
+        origin = found.constraint.origin
+        if task is not None and proposal.spot.wants != "constraint":
+            if (found.path, origin) == (task.path, task.constraint.origin):
+                return found.interval
+        elif origin and first <= origin.line <= last:
+            same = is_replaced(found.constraint, proposal.handle, proposal.binding)
+            if same and origin.file == source.name:
+                return found.interval
+    return None
 
-    return Document(_source(text_or_path))
+
+def _in_words(overlap: Overlap) -> str:
+    first, second = capsule_words(overlap.first), capsule_words(overlap.second)
+    return f"{first} is {overlap.depth_m * 1000:.0f} mm in {second}"
 
 
 def _side(hand: Hand) -> Side:
     return Side.RIGHT if hand == "right" else Side.LEFT
-
-
-def _checked(handle: Handle, target: Sequence[float]) -> Target:
-    """Return a target of the right size. Raises: AZeeError: it is none."""
-    numbers = tuple(float(x) for x in target)
-    wanted = 1 if isinstance(handle, MorphHandle) else 3
-    if len(numbers) != wanted or not all(map(math.isfinite, numbers)):
-        kind = "a weight" if wanted == 1 else "three numbers"
-        raise AZeeError(cannot_pose(f"`{handle}` is dragged to {kind}"))
-    most = HEAVIEST if wanted == 1 else FARTHEST_M
-    if max(map(abs, numbers)) > most:
-        raise AZeeError(cannot_pose(f"`{handle}` is dragged too far: at most {most:g}"))
-    return numbers

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from azee.blocks.document import Document
 from azee.blocks.edits import Edit, Insert, Replace, Wrap
 from azee.blocks.tree import Path, node_at
+from azee.lang.values import ConstraintsValue
 from azee.motion.tasks.timed_task import TimedTask
 from azee.posing.handle import Handle, MorphHandle
 from azee.posing.instant import Instant, scores_at
@@ -26,7 +28,18 @@ from azee.posing.replaced import is_replaced
 from azee.posing.text import PosedText
 from azee.score.moment import decimal
 from azee.score.score import Group, Score
-from azee_grammar.syntax import Application, Definition, OperatorName, SideWord, Symbol
+from azee_grammar.diagnostic import AZeeError
+from azee_grammar.format import one_line
+from azee_grammar.syntax import (
+    Application,
+    Definition,
+    OperatorName,
+    RuleForm,
+    RuleName,
+    SideWord,
+    Symbol,
+)
+from azee_solver.constraint import Morph
 from azee_solver.notation import subject_text
 
 Array = NDArray[np.float64]
@@ -78,25 +91,23 @@ def replacing(text: PosedText, handle: Handle, task: TimedTask, path: Path) -> S
     line = document.source.position(node_at(document.nodes, path).span.start)[0]
     inside = _definition(document, path)
     where = f"instead of `{subject_text(task.constraint)} …` in line {line}"
-    return Spot(
-        "replace", where + inside, _editing(document, lambda t: Replace(path, t)), task=task
-    )
+    write = _editing(document, partial(Replace, path))
+    return Spot("replace", where + inside, write, task=task)
 
 
 def _weight(document: Document, path: Path, handle: MorphHandle) -> Path:
     """Return the path of the weight of a morph, in a `morph` that may have several."""
     node = node_at(document.nodes, path)
     assert isinstance(node, Application)
+    names = (handle.name, f"{handle.name}_L", f"{handle.name}_R")
     for i, operand in enumerate(node.operands):
-        if isinstance(operand, Symbol) and operand.name.startswith(handle.name):
+        if isinstance(operand, Symbol) and operand.name in names:
             return (*path, i + 1 + isinstance(node.operands[i + 1], SideWord))
     return path
 
 
 def beside_others(text: PosedText, instant: Instant, handle: Handle) -> Iterator[Spot]:
     """Yield the spot among constraints that the text has itself and that are in force."""
-    if isinstance(handle, MorphHandle) and _has_foreign_shape(text, instant, handle):
-        return
     own = [
         (task, path)
         for constraint, task in instant.constraints
@@ -120,9 +131,28 @@ def beside_others(text: PosedText, instant: Instant, handle: Handle) -> Iterator
         yield Spot("beside", where, _editing(document, edit), cost=0.2)
 
 
-def _has_foreign_shape(text: PosedText, instant: Instant, handle: MorphHandle) -> bool:
-    """Whether a rule of a library shapes the same part already: weights would add up."""
-    return bool(in_force(text, instant, handle)[1])
+def instead_of_shape(text: PosedText, instant: Instant, handle: MorphHandle) -> Iterator[Spot]:
+    """Yield the spots of posture rules in the text that shape the same hand then."""
+    document = text.document
+    now = {c for c, _ in instant.constraints if isinstance(c, Morph)}
+    own = {c for c in now if is_replaced(c, handle, instant.evaluator.binding)}
+    for path, node in text.nodes:
+        if not isinstance(node, Application) or not _is_posture(node):
+            continue
+        try:
+            value = text.program.value(one_line(node), "the text")
+        except AZeeError:  # it reads a parameter
+            continue
+        found = value.content if isinstance(value, ConstraintsValue) else ()
+        shapes = {c for c in found if isinstance(c, Morph)}
+        if shapes & own and shapes <= now:
+            line = document.source.position(node.span.start)[0]
+            where = f"instead of `{one_line(node)}` in line {line}{_definition(document, path)}"
+            yield Spot("replace", where, _editing(document, partial(Replace, path)))
+
+
+def _is_posture(node: Application) -> bool:
+    return isinstance(node.head, RuleName) and node.head.form is RuleForm.POSTURE
 
 
 def new_block(text: PosedText, instant: Instant) -> Spot:

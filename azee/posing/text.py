@@ -72,12 +72,21 @@ class PosedText:
 
     @cached_property
     def _paths(self) -> dict[tuple[int, int], Path]:
-        out: dict[tuple[int, int], Path] = {}
-        for i, item in enumerate(self.document.nodes):
-            for path, node in _nodes(content(item), (i,)) if item is not None else ():
-                if isinstance(node, Application):
-                    out[node.head.span.line, node.head.span.column] = path
-        return out
+        return {
+            (node.head.span.line, node.head.span.column): path
+            for path, node in self.nodes
+            if isinstance(node, Application)
+        }
+
+    @cached_property
+    def nodes(self) -> Sequence[tuple[Path, Node]]:
+        """All nodes of the text with their paths, outer before inner."""
+        return [
+            found
+            for i, item in enumerate(self.document.nodes)
+            if item is not None
+            for found in _nodes(content(item), (i,))
+        ]
 
     @cached_property
     def utterance_paths(self) -> Sequence[Path]:

@@ -18,6 +18,7 @@ from azee.motion.tasks.timed_task import TimedTask
 from azee.motion.timing.performed import Stretch
 from azee.quality.likeness import Likeness
 from azee.quality.measures import CoordinatePeaks, Penetration
+from azee.quality.recordings import PlayedRecording
 from azee_rig.coordinates import Coordinates
 from azee_solver.constraint import Morph, Rotate, Trill
 from azee_solver.cycles import cycles
@@ -105,7 +106,8 @@ class MotionReport:
     blocks: their times, and until when their constraints hold. peaks: largest speed, acceleration
     and jerk of the coordinates that move. measure_penetration: measures it in every frame.
     measure_likeness: takes the figures of likeness. stretched: what takes longer than the score
-    says. extra_s: by how much all does. Other times are those of the score as performed.
+    says. extra_s: by how much all does. recordings: signs that are played. Other times are those of
+    the score as performed.
     """
 
     rig: str
@@ -126,6 +128,7 @@ class MotionReport:
     tempo: float = 1.0
     stretched: tuple[Stretch, ...] = ()
     extra_s: float = 0.0
+    recordings: tuple[PlayedRecording, ...] = ()
 
     @cached_property
     def constraints(self) -> tuple[ConstraintResult, ...]:
@@ -194,6 +197,7 @@ class MotionReport:
             "lead_s": self.lead_s,
             "score_s": self.score_s,
             "stretched": [s.as_json() for s in self.stretched],
+            "recordings": [played.as_json() for played in self.recordings],
             "keyframes": [_keyframe(p) for p in self.postures],
             "problems": [row for p in self.postures if not p.reused for row in _problems(p)],
             "evaluations": self.evaluations,

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.tasks.limbs import CARRIERS
+from azee.motion.tasks.recordings import RecordedBlock
 from azee.motion.tasks.timed_task import EarlyEnd, TimedTask
 from azee_solver.constraint import Constraint, Transpath, Trill
 
@@ -27,12 +28,14 @@ Mask = NDArray[np.bool_]
 class TaskSpan:
     """One constraint of one block while it is held, on the score's time line.
 
+    Or what a recording has a limb do: that has no constraint, and asks for movement.
+
     limb: the one that the constraint names. limbs: all that can move what it names. reads: those
     that its target lies on. moves: whether the task itself asks for movement.
     """
 
     path: tuple[str, ...]
-    constraint: Constraint
+    constraint: Constraint | None
     limb: str
     limbs: frozenset[str]
     reads: frozenset[str]
@@ -50,9 +53,11 @@ class TaskSpan:
 
 
 def task_spans(
-    tasks: Iterable[TimedTask], early_ends: Mapping[int, EarlyEnd]
+    tasks: Iterable[TimedTask],
+    early_ends: Mapping[int, EarlyEnd],
+    recorded: Iterable[RecordedBlock] = (),
 ) -> tuple[TaskSpan, ...]:
-    """Return what a score asks of one body, in the order of the score.
+    """Return what a score asks of one body, in the order of the score, then what is played.
 
     Args: early_ends: by the rank of tasks that stop to hold before their blocks end.
     """
@@ -71,6 +76,12 @@ def task_spans(
                 end_s=float(task.interval.end if early is None else early.time),
             )
         )
+    for block in recorded:
+        for limb in sorted(block.limbs):
+            own = frozenset((limb,))
+            out.append(
+                TaskSpan(block.path, None, limb, own, frozenset(), True, block.start_s, block.end_s)
+            )
     return tuple(out)
 
 

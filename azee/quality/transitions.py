@@ -59,8 +59,9 @@ def transitions(k: Kinematics, spans: Sequence[TaskSpan]) -> tuple[Transition, .
 
     Where no movement is asked of the arm, between the first and the last time that anything is, a
     run of speeds above `STOPPED_M_S` is a transition; it begins and ends where the speed is `ONSET`
-    of its largest. For a minimum-jerk movement of T seconds these are .0864 T and .9136 T, from
-    30 τ²(1 − τ)² = .1 · 1.875.
+    of its largest. Of runs whose extents overlap, such as those of a slow movement that dips below
+    `STOPPED_M_S`, the fastest counts. For a minimum-jerk movement of T seconds these are .0864 T
+    and .9136 T, from 30 τ²(1 − τ)² = .1 · 1.875.
     """
     found = [t for side in SIDES for t in _transitions(k, spans, side)]
     return tuple(sorted(found, key=lambda t: (t.start_s, t.side)))
@@ -76,11 +77,17 @@ def _transitions(k: Kinematics, spans: Sequence[TaskSpan], side: str) -> Iterato
     times = k.times_s[0] + (SPEED_AT + np.arange(len(speed))) / k.fps
     first, last = min(s.start_s for s in own), max(s.end_s for s in own)
     free = ~asked_to_move(spans, limb, times)
+    tops = []
     for run in runs((speed > STOPPED_M_S) & free & (first <= times) & (times <= last)):
         if times[run[0]] - first < 1.0 / k.fps or last - times[run[-1]] < 1.0 / k.fps:
             continue  # from or to rest
-        top = int(run[int(speed[run].argmax())])
+        tops.append(int(run[int(speed[run].argmax())]))
+    taken = np.zeros(len(speed), dtype=np.bool_)
+    for top in sorted(tops, key=lambda i: -speed[i]):
         start, end = _extent(speed, top, ONSET * speed[top], free)
+        if taken[start : end + 1].any():
+            continue
+        taken[start : end + 1] = True
         # A speed lies half-way between its frames.
         a, b = start + 1, min(end + 2, len(wrist) - 1)
         way = float(np.linalg.norm(wrist[b] - wrist[a]))

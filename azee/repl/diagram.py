@@ -13,7 +13,7 @@ from fractions import Fraction
 from azee.export.score_layout import Box, lanes, nested
 from azee.repl.ink import Ink, Line, cut, width
 from azee.score.interval import Interval
-from azee.score.score import Blank, Group, Hold, Key, Score
+from azee.score.score import Blank, Group, Hold, Key, Recorded, Score
 from azee_grammar import vocabulary
 from azee_solver.constraint import (
     Constraint,
@@ -159,6 +159,8 @@ def _ink(box: Box) -> Ink:
             return Ink.HOLD
         case Blank():
             return Ink.BLANK
+        case Recorded():
+            return Ink.RECORDED
         case Key(constraints=constraints):
             found = {_moves(constraint) for constraint in constraints}
             order = (Ink.HANDS, Ink.HEAD, Ink.GAZE, Ink.FACE)

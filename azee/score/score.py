@@ -1,19 +1,21 @@
 """Scores, the values of AZee utterances: nested, exactly timed, independent of any rig.
 
 A leaf says what the body does for a while. A `Key` has a set of constraints, a `Hold` keeps what
-another block reached, and a `Blank` has no constraints. A `Group` places named blocks on its own
-time line, which starts at zero with its earliest block and ends with its latest.
+another block reached, a `Recorded` plays a recorded sign, and a `Blank` has no constraints. A
+`Group` places named blocks on its own time line, which starts at zero with its earliest block and
+ends with its latest.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from fractions import Fraction
 from typing import TypeAlias
 
 from azee.score.interval import Interval
+from azee.score.recorded_motion import RecordedMotion
 from azee_solver.constraint import Constraint, Manner, Origin
 from azee_solver.geometry import Side
 
@@ -23,17 +25,21 @@ class Call:
     """The rule application that a score came from.
 
     handed_over: whether the rule was an argument, such as `.nb-5`, of what applied it. mouthed:
-    the text, where the score is a mouthing; `rule` is then the operator's name.
+    the text, where the score is a mouthing. recorded: the name of the sign, where it is a
+    recording. For both, `rule` is the operator's name.
     """
 
     rule: str
     origin: Origin | None = field(default=None, compare=False)
     handed_over: bool = field(default=False, compare=False)
     mouthed: str | None = None
+    recorded: str | None = None
 
     @property
     def title(self) -> str:
-        """How people call it: the rule's name, or what is mouthed."""
+        """How people call it: the rule's name, what is mouthed, or the recorded sign."""
+        if self.recorded is not None:
+            return self.recorded
         return self.rule if self.mouthed is None else f"“{self.mouthed}”"
 
 
@@ -84,6 +90,28 @@ class Blank(_Score):
     """A score without constraints."""
 
 
+@dataclass(frozen=True, slots=True)
+class Recorded(_Score):
+    """Plays a recorded sign.
+
+    motion: where its movement is from. attack_s, decay_s: how long the body needs into what the
+    sign means and out of it. A stretch changes what is between, as long as there is room.
+    mirrored: whether the other hand signs.
+    """
+
+    motion: RecordedMotion
+    attack_s: Fraction
+    decay_s: Fraction
+    mirrored: bool = False
+
+    @property
+    def body(self) -> Interval:
+        """When its movement is that of the recording, from its own start on."""
+        leads = self.attack_s + self.decay_s
+        share = min(Fraction(1), self.duration / leads) if leads else Fraction(1)
+        return Interval(share * self.attack_s, self.duration - share * self.decay_s)
+
+
 class Arrangement(Enum):
     """How a group's blocks were laid out; their intervals are exact in either case."""
 
@@ -115,7 +143,7 @@ class Group(_Score):
         raise KeyError(name)
 
 
-Score: TypeAlias = Key | Hold | Blank | Group
+Score: TypeAlias = Key | Hold | Recorded | Blank | Group
 
 
 def is_mouthing(score: Score) -> bool:
@@ -134,6 +162,8 @@ def came_from(score: Score, call: Call) -> Score:
             return Hold(
                 duration, calls=calls, fixed=fixed, block=score.block, channels=score.channels
             )
+        case Recorded():
+            return replace(score, calls=calls)
         case Blank():
             return Blank(duration, calls=calls, fixed=fixed)
         case Group():
@@ -154,7 +184,7 @@ class Leaf:
     """Names of the blocks that lead to it, outermost first."""
     interval: Interval
     """On the time line of the whole score."""
-    score: Key | Hold | Blank
+    score: Key | Hold | Recorded | Blank
     parents: tuple[Group, ...]
     """The groups around it, outermost first, one per name in `path`."""
 

@@ -165,11 +165,12 @@ class SignDatabase:
         return row.original_name, row.original
 
     def clip(self, sign: Sign, rig: Rig) -> Clip:
-        """Return the movement of a sign on its body.
+        """Return the movement of a sign on its body, turned to the viewer if it is repositioned.
 
         Raises: SignsError: other-skeleton: the body has another. damaged-sign, unknown-sign.
         """
         from azee.clip.archive import ClipFileError, unpack_clip
+        from azee.clip.facing import facing_viewer
 
         if StoredSkeleton.of(rig).digest != sign.skeleton_digest:
             raise SignsError(
@@ -180,9 +181,14 @@ class SignDatabase:
             )
         data = self.motion(sign).clip
         try:
-            return unpack_clip(data, rig, str(sign.identity))
+            clip = unpack_clip(data, rig, str(sign.identity))
         except ClipFileError as error:
             raise SignsError("damaged-sign", str(error)) from error
+        if sign.facts.repositioned:
+            start_s, timing = float(clip.times[0]), sign.facts.timing
+            body = start_s + timing.attack_s, start_s + timing.duration_s - timing.decay_s
+            clip, _ = facing_viewer(clip, rig.coordinates, *body)
+        return clip
 
     # Changes
 
@@ -255,6 +261,17 @@ class SignDatabase:
         except IntegrityError as error:
             raise _exists(self.store, identity) from error
         return replace(sign, facts=replace(sign.facts, identity=identity))
+
+    def reposition(self, sign: Sign, *, turned: bool) -> Sign:
+        """Have trunk and head of a sign face the viewer, or as recorded; returns it as it is then.
+
+        What is stored does not change. Raises: SignsError: unknown-sign: it is gone.
+        """
+        with self.store.writing() as connection:
+            _hold(connection, sign)
+            change = update(SIGN).where(SIGN.c.id == sign.number).values(repositioned=turned)
+            connection.execute(change)
+        return replace(sign, facts=replace(sign.facts, repositioned=turned))
 
     def remove(self, sign: Sign) -> None:
         """Remove a sign with its motion and tags. Raises: SignsError: unknown-sign: it is gone."""

@@ -23,7 +23,8 @@ KINDS = (("t", "y", 1.0, True), ("a", "z", 0.01, True), ("t", "y", 1.0, False))
 def rows() -> Iterator[str]:
     """Yield the rows of the table, one for each body."""
     sys.path[:0] = [str(ROOT / "tests" / "rig")]
-    from body_families import FAMILIES, make_body
+    from body_families import make_body
+    from joint_names import FAMILIES
 
     import azee
     from azee_rig.importing.folder import write_folder

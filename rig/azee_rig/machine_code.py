@@ -162,12 +162,16 @@ class Kernel:
         return digest.hexdigest()[:16]
 
 
+_EIGHT_BYTES = frozenset((np.dtype(np.float64), np.dtype(np.int64)))
+
+
 def _word(word: int | NDArray[Any]) -> int:
     if isinstance(word, int):
         return word
-    if not word.flags.c_contiguous or word.dtype not in (np.float64, np.int64):
+    if not word.flags.c_contiguous or word.dtype not in _EIGHT_BYTES:
         raise ValueError("kernels take eight-byte numbers, row by row")
-    return int(word.ctypes.data)
+    address: int = word.__array_interface__["data"][0]
+    return address
 
 
 def _symbol(name: str) -> str:

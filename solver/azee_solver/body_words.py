@@ -80,14 +80,21 @@ def capsule_words(name: str) -> str:
 
 
 def limit_words(name: str, limit_rad: float, *, upper: bool, more_rad: float) -> str:
-    """Say that a coordinate is at its upper or lower limit, and by how much that is too little."""
+    """Say that a coordinate is at its upper or lower limit, and by how much that is too little.
+
+    A lower limit above zero is as much flexion, not extension below zero; what is beyond it is
+    less flexion. So it is with upper limits below zero.
+
+    Args: more_rad: how far beyond the limit it would have to go, above zero.
+    """
     bone, _, movement = name.partition(".")
     verb, up, down = _MOVEMENTS.get(movement, ("move", f"of {movement}", f"of {movement}"))
-    degrees = math.degrees(limit_rad if upper else -limit_rad) + 0.0
-    where = f"{degrees:.0f}° {up if upper else down}"
+    degrees = round(math.degrees(limit_rad))
+    beyond_zero = degrees < 0 if upper else degrees > 0
+    further, more = ("less", "less") if beyond_zero else ("further", "more")
     return (
-        f"{bone_words(bone)} cannot {verb} further: it is at {where} "
-        f"and needs {math.degrees(more_rad):.1f}° more"
+        f"{bone_words(bone)} cannot {verb} {further}: it is at {abs(degrees)}° "
+        f"{up if upper != beyond_zero else down} and needs {math.degrees(more_rad):.1f}° {more}"
     )
 
 

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import Protocol
 
@@ -204,6 +205,7 @@ def _windows(count: int, fps: float) -> list[tuple[int, int]]:
     return [*zip(starts, [*stops, count], strict=True)]
 
 
+@lru_cache(maxsize=16)
 def _difference_bands(count: int) -> Array:
     """Return the main and the upper diagonals of DᵀD for `ORDER`-th differences, (k + 1, T)."""
     stencil = np.diff(np.eye(ORDER + 1), ORDER, axis=0)[0]

@@ -26,9 +26,20 @@ from azee_grammar.token import Token
 T = TypeVar("T")
 
 EXPRESSIONS = (":chat", "key .2 (look ^fwd)", "'new", ".5", "f(1, 'a = g(2))", ":mois sgn1 # why\n")
-ROWS = (":chat", "'info :bien", "'B key(1, ^x)  # beside\n'start 'A:end", "^p", "# above\n'dist .02")
-ITEMS = ("use 'lsf", ":bien", "def b\n    # inside\n    'meaning \"m\"\n    :chat", "key 1 :#fist")
-AROUND = (":negation 'sig ?it", "repeat ?it 2", "f('x = ?it)", "cstr\n    ?it  # held\n    look ^fwd")
+ROWS = (
+    ":chat",
+    "'info :bien",
+    "'B key(1, ^x)  # beside\n'start 'A:end",
+    "^p",
+    "# above\n'dist .02",
+)
+ITEMS = ("use 'lsf", ":bien", 'def b\n    # inside\n    \'meaning "m"\n    :chat', "key 1 :#fist")
+AROUND = (
+    ":negation 'sig ?it",
+    "repeat ?it 2",
+    "f('x = ?it)",
+    "cstr\n    ?it  # held\n    look ^fwd",
+)
 NAMES = ("bien", "other-name", "x1", "été")
 
 

@@ -19,8 +19,9 @@ sys.path[:0] = [str(ROOT / "tests" / "rig")]
 
 import body_families  # noqa: E402
 from any_body import damaged, examine  # noqa: E402
-from body_families import FAMILIES, declare, make_body  # noqa: E402
+from body_families import declare, make_body  # noqa: E402
 from drawn_faces import drawn  # noqa: E402
+from joint_names import FAMILIES  # noqa: E402
 from search import place  # noqa: E402
 
 FOUND = ROOT / "out" / "fuzz" / "bodies"

@@ -11,7 +11,8 @@ from any_body import damaged, examine, joined, split
 
 sys.path[:0] = [str(Path(__file__).parents[1] / "rig")]
 
-from body_families import FAMILIES, make_body  # noqa: E402
+from body_families import make_body  # noqa: E402
+from joint_names import FAMILIES  # noqa: E402
 
 REGRESSIONS = sorted((Path(__file__).parent / "regressions" / "bodies").iterdir())
 SMALL_BYTES = 8192

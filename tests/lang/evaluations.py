@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from any_recordings import AnyRecordings
+
 from azee.lang.machine import DEFAULT_LIMITS, Limits
 from azee.lang.program import Program, load
 from azee.lang.values import ConstraintsValue, Value
@@ -16,7 +18,7 @@ NAME = "text.azee"
 
 
 def program(text: str, *libraries: Path, limits: Limits = DEFAULT_LIMITS) -> Program:
-    return load(Source(NAME, text), libraries, limits)
+    return load(Source(NAME, text), libraries, limits, recordings=AnyRecordings())
 
 
 def value(expression: str, definitions: str = "") -> Value:

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Hostile:
-    """A text, and the codes that its check must end in."""
+    """A text, and the codes that its check must end in. is_slow: it takes seconds to get there."""
 
     name: str
     text: str
     codes: tuple[str, ...]
+    is_slow: bool = False
 
 
 def _doubling(count: int) -> str:
@@ -61,7 +62,7 @@ HOSTILE = (
     ),
     Hostile("let that doubles a list, 60 times", _doubling(60), ("size-limit",)),
     Hostile("let that doubles a score, 60 times", _scores(60), ("size-limit",)),
-    Hostile("rules that apply others twice, 60 deep", _expansion(60), ("step-limit",)),
+    Hostile("rules that apply others twice, 60 deep", _expansion(60), ("step-limit",), True),
     Hostile("rules that add others twice, 60 deep", _sums(60), ("step-limit",)),
     Hostile("a range of 10¹⁵ numbers", "count(range(1, 1000000000000000))\n", ("size-limit",)),
     Hostile("lists of lists", f"map({_TWICE}, range(1, 400))\n", ("size-limit",)),
@@ -73,7 +74,7 @@ HOSTILE = (
         ("recursion-limit",),
     ),
     Hostile("a circle of 2,000 blocks", _circle(2000), ("cyclic-sync",)),
-    Hostile("a million words", "list " + "1 " * 1_000_000 + "\n", ("size-limit",)),
+    Hostile("a million words", "list " + "1 " * 1_000_000 + "\n", ("size-limit",), True),
 )
 
 

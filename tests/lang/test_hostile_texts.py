@@ -32,7 +32,11 @@ def spent(text: str, monkeypatch: pytest.MonkeyPatch) -> tuple[int, tuple[Diagno
     return sum(machine.steps for machine in machines), diagnostics
 
 
-@pytest.mark.parametrize("hostile", HOSTILE, ids=lambda hostile: hostile.name)
+@pytest.mark.parametrize(
+    "hostile",
+    [pytest.param(h, marks=pytest.mark.slow) if h.is_slow else h for h in HOSTILE],
+    ids=lambda hostile: hostile.name,
+)
 def test_a_hostile_text_ends_in_its_diagnostic(
     hostile: Hostile, monkeypatch: pytest.MonkeyPatch
 ) -> None:

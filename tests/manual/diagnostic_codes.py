@@ -15,7 +15,7 @@ PACKAGES = (azee, azee_grammar, azee_solver, azee_rig)
 """As they are imported: from the tree, or from an installed wheel."""
 
 MAKERS = {
-    *("BindingError", "BodyError", "Diagnostic", "LayoutError", "SignsError"),
+    *("BindingError", "BodyError", "Diagnostic", "LayoutError", "RecordingError", "SignsError"),
     *("fault", "_problem"),
 }
 """Whoever is called by one of these names takes the code as its first argument."""

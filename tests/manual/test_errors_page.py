@@ -88,6 +88,7 @@ FILES = {
     "broken/lexicon.json": b"{}",
     "sign.npz": _sign(),
     "signs.db": _signs(),
+    "shortcuts.txt": b":bien\n",
 }
 """What the examples find beside them."""
 

@@ -110,6 +110,16 @@ def test_rotations_that_follow_at_once_leave_time_for_the_step() -> None:
     assert speed.max() < 1.9 * 0.4 / 0.06
 
 
+def test_a_trunk_that_carries_the_arms_takes_longer_from_one_rotation_to_the_next() -> None:
+    """As in the rule in-context: 3° to the left, .06 s later 2° to the right."""
+    left, right = (Rotate(Bone("back_1"), Vec(0, 1, 0), math.radians(a)) for a in (3, -2))
+    turned = offsets(sync(block("A", "0", ".11", left), block("B", ".17", ".29", right)), TIMES)
+    total = sum(values for name, values in turned.items() if name.endswith(".axial"))
+    acceleration = np.abs(np.diff(total, 2)) / 0.01**2
+    assert np.ptp(total) == pytest.approx(math.radians(5), rel=0.05)
+    assert acceleration.max() < 25.0
+
+
 def test_a_shake_under_a_gaze_and_a_raised_chin_keeps_its_amplitude() -> None:
     shake = sync(
         block("L1", "0", ".1", LEFT), block("R1", ".25", ".35", RIGHT),

@@ -227,6 +227,7 @@ def test_where_only_carriers_slide_zero_alone_is_added(hips: str, added: bool) -
         ("1e-8", 100.0, "100 frames a second"),
         ("1e-6", 1000.0, "1000 frames a second"),
         ("1.0015e-6", 998.5, "998.5 frames a second"),
+        ("8.3333e-12", 120.0, "120 frames a second"),
         ("7e-12", 30.0, "30 frames a second"),
         ("1e7", 30.0, "30 frames a second"),
         ("-1", 30.0, "says no frame time"),

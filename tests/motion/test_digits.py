@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from stick_signer import FINGERS, bent, stick_signer
 
 from azee.clip.bvh import parse_bvh
 from azee.clip.clip import Clip
-from azee.clip.digits import DIGITS, SIDES, Digit, DigitFit, thumb_turns
+from azee.clip.digits import DIGITS, SIDES, Digit, DigitFit, bend, thumb_turns
 from azee.clip.retarget import Retargeted, retarget
 from azee.clip.retarget_source import Measured, measure_clip, measure_recording
 from azee.export.formats.bvh import write_bvh
@@ -140,6 +141,7 @@ def test_what_the_limits_take_is_told_by_digit(signer: Rig) -> None:
     assert made.kept(signer).endswith(
         f"finger tips are off in the palm by up to: index {mm:.0f} mm, thumb 0 mm"
     )
+    assert replace(made, tip_m={}).kept(signer).endswith("; no finger is carried over")
     assert made.report(signer)["digits"]["index_R"]["tip_m"] == {
         "mean": pytest.approx(off[1] / 2), "max": off[1]
     }  # fmt: skip
@@ -297,6 +299,9 @@ def test_joints_that_are_no_hinges_tell_no_roll(signer: Rig) -> None:
     assert thumb.ways is not None
     found, _ = DigitFit(signer, "thumb_L").angles(thumb)
     assert np.degrees(found[0, 2]) == pytest.approx(-25.6, abs=10)
+    last = bend(thumb.frames[:, 1], thumb.frames[:, 2])
+    assert np.degrees(last).max() > 10
+    np.testing.assert_allclose(found[:, 4], last, atol=1e-9)
 
 
 def test_a_clip_of_one_rig_keeps_its_angles_on_another(signer: Rig) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 import jsonschema
 import numpy as np
 import pytest
+from carried_over import hands_seen, posed, stick_figure, turn_deg
 from formats import schema
 
 from azee.cli.main import run
@@ -46,25 +47,14 @@ def clip(signer: Rig) -> Clip:
     return Clip(np.arange(FRAMES) / 30, q, (), np.zeros((FRAMES, 0)))
 
 
-def _hands(rig: Rig, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Wrists from the shoulders' middle in arm lengths, and palms, in the chest's frame."""
-    seen = measure_clip(Clip(np.arange(len(q)) / 30, q, (), np.zeros((len(q), 0))), rig)
-    return seen.wrists / seen.arm_m, seen.palms
-
-
-def _turn_deg(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    trace = np.einsum("...ab,...ab->...", a, b)
-    return np.asarray(np.degrees(np.arccos(np.clip((trace - 1) / 2, -1, 1))))
-
-
 @pytest.mark.parametrize("body", ["child", "game"])
 def test_hands_stay_where_they_were_on_another_body(signer: Rig, clip: Clip, body: str) -> None:
     other = load_rig(body)
     made = retarget(measure_clip(clip, signer), other)
-    places, palms = _hands(signer, clip.coordinates)
-    there, turned = _hands(other, made.clip.coordinates)
+    places, palms = hands_seen(signer, clip.coordinates)
+    there, turned = hands_seen(other, made.clip.coordinates)
     assert np.linalg.norm(there - places, axis=-1).max() < 0.03
-    assert _turn_deg(turned, palms).max() < 5
+    assert turn_deg(turned, palms).max() < 5
     assert np.degrees(np.abs(np.diff(made.clip.coordinates, axis=0)).max()) < 12
 
 
@@ -72,10 +62,10 @@ def test_a_bvh_under_our_own_names_comes_back(signer: Rig, clip: Clip, tmp_path:
     """Through nothing but names and places of joints, as any BVH is read."""
     write_bvh(clip, signer, tmp_path / "clip.bvh")
     made = retarget(measure_recording(read_bvh(tmp_path / "clip.bvh")), signer)
-    places, palms = _hands(signer, clip.coordinates)
-    there, turned = _hands(signer, made.clip.coordinates)
+    places, palms = hands_seen(signer, clip.coordinates)
+    there, turned = hands_seen(signer, made.clip.coordinates)
     assert np.linalg.norm(there - places, axis=-1).max() < 0.03
-    assert _turn_deg(turned, palms).max() < 5
+    assert turn_deg(turned, palms).max() < 5
     c = signer.coordinates
     for name in ("index_L_1.flexion", "middle_R_2.flexion", "head.axial"):
         off = made.clip.coordinates[:, c.index[name]] - clip.coordinates[:, c.index[name]]
@@ -105,33 +95,6 @@ def test_a_clip_command_carries_another_skeletons_motion_over(
     )
     said = capsys.readouterr().err
     assert f"carried over to `signer`: hands are where they were in all {FRAMES} frames" in said
-
-
-def stick_figure(frames: int, change: tuple[str, str] = ("", ""), step_s: float = 1 / 30) -> str:
-    """BVH of a figure with arms and no fingers, held out, whose forearms bend by 10° a frame."""
-    arm = (
-        "JOINT {side}Arm {{ OFFSET {s}15 45 0 CHANNELS 3 Zrotation Xrotation Yrotation "
-        "JOINT {side}ForeArm {{ OFFSET {s}28 0 0 CHANNELS 3 Zrotation Xrotation Yrotation "
-        "JOINT {side}Hand {{ OFFSET {s}25 0 0 CHANNELS 3 Zrotation Xrotation Yrotation "
-        "End Site {{ OFFSET {s}10 0 0 }} }} }} }} "
-    )
-    text = (
-        "HIERARCHY ROOT Hips { OFFSET 0 95 0 CHANNELS 6 Xposition Yposition Zposition "
-        "Zrotation Xrotation Yrotation JOINT Head { OFFSET 0 60 0 "
-        "CHANNELS 3 Zrotation Xrotation Yrotation End Site { OFFSET 0 20 0 } } "
-        + arm.format(side="Left", s="")
-        + arm.format(side="Right", s="-")
-        + "}\nMOTION\n"
-    )
-    if change[0]:
-        assert change[0] in text
-        text = text.replace(*change)
-    rows = [
-        f"0 95 0 0 0 0  0 0 0  0 0 0  0 0 {-10 * t}  0 0 0  0 0 0  0 0 {10 * t}  0 0 0"
-        for t in range(frames)
-    ]
-    head = f"Frames: {frames}\nFrame Time: {step_s:g}\n"
-    return text + head + "\n".join(rows) + "\n"
 
 
 @pytest.mark.parametrize(
@@ -357,16 +320,6 @@ def test_bvh_of_another_body_that_ships_is_that_bodys_clip(
     assert made.rig.name == "child"
     moved = made.clip.coordinates[:, made.rig.coordinates.index["eye_L.yaw"]]
     assert moved == pytest.approx(0.2, abs=1e-6)
-
-
-def posed(rig: Rig, frames: int, degrees: dict[str, float]) -> Clip:
-    """A still of some frames, both arms alike; coordinates that are not named rest."""
-    c = rig.coordinates
-    q = np.tile(c.idle, (frames, 1))
-    for name, angle in degrees.items():
-        for side in "LR":
-            q[:, c.index[name.format(side)]] = np.radians(angle)
-    return Clip(np.arange(frames) / 30, q, (), np.zeros((frames, 0)))
 
 
 def test_no_joint_goes_from_limit_to_limit_in_a_frame(signer: Rig) -> None:

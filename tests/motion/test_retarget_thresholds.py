@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from carried_over import posed, stick_figure
 from numpy.typing import NDArray
-from test_retarget import posed, stick_figure
 
 from azee.clip import retarget as retargeting
 from azee.clip.bvh import parse_bvh
@@ -286,3 +286,11 @@ def test_a_step_turns_no_joint_by_more_than_half_a_radian(signer: Rig) -> None:
         _, r = there._residual(start, idle)
         turned = (there._step(start, idle, r, np.full((1, 2), 1e-8)) - start)[0]
         assert np.abs(turned).max() <= 0.5 + 1e-12
+
+
+@pytest.mark.parametrize("name", ["arm_m", "wrists", "elbows", "palms"])
+def test_a_source_without_numbers_is_refused(signer: Rig, name: str) -> None:
+    """Arms without an end cannot be compared, whatever else is known of the movement."""
+    source = measure_clip(posed(signer, 2, {}), signer)
+    with pytest.raises(ValueError, match=name):
+        replace(source, **{name: np.full_like(getattr(source, name), np.inf)})

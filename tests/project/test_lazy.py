@@ -40,6 +40,8 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("--help",): set(),
     ("compile", "--help"): set(),
     ("render", "--help"): set(),
+    ("pose", "--help"): set(),
+    ("blocks", "text.azee"): {"lark"},
     ("clip", "cut", "--help"): set(),
     ("repl", "--help"): set(),
     ("repl",): {"lark"},

@@ -100,6 +100,14 @@ def test_a_clip_that_is_measured_has_the_same_figures_at_any_rate(signer: Rig) -
     assert values == pytest.approx([values[-1]] * 3, rel=5e-3)
 
 
+def test_a_slow_movement_that_dips_is_one_transition(signer: Rig) -> None:
+    """Between its two peaks of .31 m/s it falls to .06: slower than stopped, faster than onset."""
+    first, second = moves(0.15, 0.5, 0.9), moves(0.15, 1.25, 0.9)
+    k = drawn(signer, 3.0, wrists={"R": lambda t: first(t) + second(t), "L": still()})
+    (found,) = transitions(k, [span(0.2, 0.4, limbs=ARM_R), span(2.5, 3.0, limbs=ARM_R)])
+    assert found.distance_m == pytest.approx(0.3, abs=0.01)
+
+
 def test_a_transition_has_its_way_and_its_time(signer: Rig) -> None:
     """The rest at both ends, and the ways from and to rest, are left out."""
     course = then(moves(0.2, 0.0, 0.5), moves(0.3, 1.0, 0.6), moves(-0.5, 2.0, 0.5))

@@ -29,19 +29,22 @@ SIGNS = (
     ":nb-6",
 )
 NESTED = ":instance-of(:not-but(:chat, :bien), :mignon)"
+TOUCHING_BELOW_A_RAISED_CHIN = ":instance-of(:not-but(:arbre, :armoire), :pays)"
+"""Finger tips touch before the forehead and part, while the head is raised."""
+BRIEFS = ("brief-cat", "brief-heat")
 HEAD_RULES = ("in-context", "instance-of", "side-info", "not-but")
 KEPT_SHARE = 0.8
 
 
 @cache
 def made(text: str) -> Compilation:
-    if text in EXAMPLES:
+    if text in (*EXAMPLES, *BRIEFS):
         return azee.compile(ROOT / "examples" / text / f"{text}.azee", fps=60.0)
     return azee.compile(expression=text, fps=60.0)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("text", [*EXAMPLES, *SIGNS, NESTED])
+@pytest.mark.parametrize("text", [*EXAMPLES, *BRIEFS, *SIGNS, NESTED, TOUCHING_BELOW_A_RAISED_CHIN])
 def test_no_hand_is_thrown(text: str) -> None:
     found = made(text).report.likeness
     speed, acceleration = (

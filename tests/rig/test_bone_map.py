@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from body_families import FAMILIES, make_body
+from body_families import make_body
+from joint_names import FAMILIES
 
 from azee.cli.main import run
 from azee_rig.importing.bone_map import read_bone_map

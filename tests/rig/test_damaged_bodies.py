@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from body_families import FAMILIES, make_body
+from body_families import make_body
 from glb_file import GlbFile
+from joint_names import FAMILIES
 
 from azee.cli.main import run
 from azee_rig.importing.container import read_gltf

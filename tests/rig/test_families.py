@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from body_families import FAMILIES, Body, Family, declare, make_body, with_sleeves
+from body_families import Body, declare, make_body, with_sleeves
+from joint_names import FAMILIES, Family
 
 import azee
 from azee.quality.outcome import misses

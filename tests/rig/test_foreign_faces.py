@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from body_families import FAMILIES, Body, make_body
+from body_families import Body, make_body
 from drawn_faces import drawn
 from glb_file import GlbFile
+from joint_names import FAMILIES
 from numpy.typing import NDArray
 from PIL import Image
 

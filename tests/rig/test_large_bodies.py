@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from body_families import FAMILIES, make_body
+from body_families import make_body
+from joint_names import FAMILIES
 
 from azee_rig.build import riding
 from azee_rig.importing import skeleton_tree

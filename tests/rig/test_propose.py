@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
-from body_families import FAMILIES, Body, make_body
+from body_families import Body, make_body
+from joint_names import FAMILIES
 from numpy.typing import NDArray
 
 from azee_rig.importing.bone_map import BoneMap

@@ -55,6 +55,7 @@ def test_capsules_are_called_by_what_they_hold(capsule: str, words: str) -> None
         ("head.axial", 40, True, "the head cannot turn further: it is at 40° to the left and"),
         ("neck.lateral", -25, False, "the neck cannot bend further: it is at 25° to the right and"),
         ("eye_R.pitch", -25, False, "the right eye cannot turn further: it is at 25° down and"),
+        ("f_arm_L.flexion", 0.4, False, "cannot bend further: it is at 0° of extension and needs"),
     ],
 )
 def test_a_limit_is_told_in_degrees_and_by_direction(
@@ -63,6 +64,21 @@ def test_a_limit_is_told_in_degrees_and_by_direction(
     told = limit_words(name, math.radians(degrees), upper=upper, more_rad=math.radians(2.5))
     assert words in told
     assert told.endswith(" and needs 2.5° more")
+
+
+@pytest.mark.parametrize(
+    ("name", "degrees", "upper", "words"),
+    [
+        ("f_arm_L.flexion", 9, False, "the left forearm cannot bend less: it is at 9° of flexion"),
+        ("head.axial", 5, False, "the head cannot turn less: it is at 5° to the left"),
+        ("eye_R.pitch", -3, True, "the right eye cannot turn less: it is at 3° down"),
+    ],
+)
+def test_beyond_a_limit_on_the_other_side_of_zero_a_joint_moves_less(
+    name: str, degrees: float, upper: bool, words: str
+) -> None:
+    told = limit_words(name, math.radians(degrees), upper=upper, more_rad=math.radians(2.5))
+    assert told == f"{words} and needs 2.5° less"
 
 
 def test_directions_in_words_are_those_of_the_body(signer: Rig) -> None:

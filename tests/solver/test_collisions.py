@@ -264,6 +264,26 @@ def test_winding_numbers_tell_inside_from_outside_even_of_an_open_box() -> None:
     assert winding_numbers(points[:1], open_box)[0] > 0.7
 
 
+@given(st.integers(0, 10**6), st.integers(1, 40))
+def test_winding_numbers_are_the_sum_of_solid_angles(seed: int, count: int) -> None:
+    """Also of surfaces that cross themselves, seen from their corners too, and of many turns."""
+    random = np.random.default_rng(seed)
+    tangle = random.normal(size=(count, 3, 3))
+    surface = np.concatenate([tangle, np.repeat(CUBE, 3, axis=0), 2.0 * CUBE - 0.5])
+    points = np.concatenate([random.uniform(-0.5, 1.5, (6, 3)), tangle[0, :1], CORNERS[:1]])
+    a, b, c = np.moveaxis(surface[None] - points[:, None, None], 2, 0)
+    lengths = [np.linalg.norm(v, axis=-1) for v in (a, b, c)]
+    volume = np.einsum("ntk,ntk->nt", a, np.cross(b, c))
+    spread = np.prod(lengths, axis=0)
+    for v, w, length in zip((a, b, c), (b, c, a), (lengths[2], *lengths[:2]), strict=True):
+        spread += np.einsum("ntk,ntk->nt", v, w) * length
+    exact = np.arctan2(volume, spread)
+    flat = np.abs(np.abs(exact) - np.pi) < 1e-9  # a point on a triangle sees it from either side
+    sums = exact.sum(axis=1) / (2 * np.pi)
+    seen = ~flat.any(axis=1)
+    np.testing.assert_allclose(winding_numbers(points, surface)[seen], sums[seen], atol=1e-9)
+
+
 @given(st.tuples(coordinate, coordinate, coordinate))
 def test_distance_to_a_cube(point: tuple[float, float, float]) -> None:
     p = 2 * np.array([point])

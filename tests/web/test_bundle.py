@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from programs import Node
 
-from azee.web.bundle import DIST, LICENCES, bundle
+from azee.web.bundle import DIST, LICENCES, bundle, parts
 
 ROOT = Path(__file__).parents[2]
 WEB = ROOT / "azee" / "web"
@@ -49,6 +49,13 @@ def test_scripts_are_small_and_name_each_other_by_relative_addresses() -> None:
         elif path.suffix == ".html":
             loaded = re.findall(r'(?:src|href)="([^"]+)"', text)
             assert all(a.startswith(("./", "data:")) for a in loaded)
+
+
+def test_a_page_is_found_with_all_that_it_needs_and_nothing_else() -> None:
+    names = {path.name for path in parts("player.html", "azee-player.js")}
+    assert names >= {"player.html", "player.js", "player.css", "azee-player.js", "vendor-three.js"}
+    assert LICENCES in names
+    assert not any("studio" in name or "editor" in name for name in names)
 
 
 def test_every_library_in_the_scripts_is_named_with_its_licence() -> None:

@@ -25,6 +25,7 @@ from azee.export.formats.eaf_content import (
     ARTICULATOR,
     GLOSS,
     MOUTHING,
+    RECORDED,
     RULE,
     SOUNDS,
     content_tiers,
@@ -113,7 +114,7 @@ def _document(
             element, "ALIGNABLE_ANNOTATION", {"ANNOTATION_ID": f"a{number}", **known}
         )
         SubElement(annotation, "ANNOTATION_VALUE").text = note.text
-    for kind in (WHOLE, GLOSS, MOUTHING, SOUNDS, ARTICULATOR, RULE, INNER, TRACK):
+    for kind in (WHOLE, GLOSS, RECORDED, MOUTHING, SOUNDS, ARTICULATOR, RULE, INNER, TRACK):
         constraint = {"CONSTRAINTS": "Included_In"} if kind == INNER else {}
         known = {
             "GRAPHIC_REFERENCES": "false",

@@ -13,13 +13,15 @@ from fractions import Fraction
 from functools import cached_property
 
 from azee.export.formats.eaf_tiers import Note, Tier, in_lanes, note_of
-from azee.score.articulators import ARTICULATORS, CHANNEL, articulator_of
+from azee.score.articulators import ARTICULATORS, CHANNEL, HANDS, articulator_of
 from azee.score.interval import Interval
-from azee.score.score import Call, Group, Hold, Key, Score, is_mouthing, leaves
+from azee.score.score import Call, Group, Hold, Key, Recorded, Score, is_mouthing, leaves
 from azee_solver.notation import constraint_text
 
 GLOSS, ARTICULATOR, RULE = "gloss", "articulator", "rule"
 """Linguistic types: names of signs, what a part of the signer does, where a rule is applied."""
+RECORDED = "recorded"
+"""Linguistic type: recorded signs that are played."""
 MOUTHING, SOUNDS = "mouthing", "mouthing sounds"
 """Linguistic types: what the mouth says, and its sounds in SAMPA."""
 HANDS_CHANNEL = "hands"
@@ -80,8 +82,10 @@ class Node:
 
     @property
     def gloss(self) -> str:
-        """The name of the rule that it came from, as the text has it; else that of the block."""
-        return self.score.calls[0].rule if self.score.calls else self.name
+        """The rule or recording that it came from, as the text has it; else the block's name."""
+        if not self.score.calls:
+            return self.name
+        return self.score.calls[0].recorded or self.score.calls[0].rule
 
 
 def content_tiers(score: Score, lead_s: float = 0.0) -> list[Tier]:
@@ -90,6 +94,7 @@ def content_tiers(score: Score, lead_s: float = 0.0) -> list[Tier]:
     root = Node("", score, Interval(start, start + score.duration), None, _texts(score))
     return [
         *_gloss_tiers(root),
+        *_recorded_tiers(root),
         *_mouthing_tiers(root),
         *_articulator_tiers(root),
         *_rule_tiers(root),
@@ -98,6 +103,15 @@ def content_tiers(score: Score, lead_s: float = 0.0) -> list[Tier]:
 
 def _gloss_tiers(root: Node) -> list[Tier]:
     return in_lanes(GLOSS, GLOSS, (_note(sign.gloss, sign) for sign in root.signs))
+
+
+def _recorded_tiers(root: Node) -> list[Tier]:
+    nodes = (node for node in root.all() if isinstance(node.score, Recorded))
+    return in_lanes(RECORDED, RECORDED, (_note(_name(node.score), node) for node in nodes))
+
+
+def _name(score: Score) -> str:
+    return score.motion.name if isinstance(score, Recorded) else ""
 
 
 def _mouthing_tiers(root: Node) -> list[Tier]:
@@ -169,7 +183,8 @@ def _rule_tiers(root: Node) -> list[Tier]:
     signs = set(map(id, root.signs))
     for node in root.all():
         for call in node.score.calls:
-            if id(node) not in signs and call.mouthed is None and node.wrote(call):
+            named = call.mouthed is None and call.recorded is None
+            if id(node) not in signs and named and node.wrote(call):
                 said = " ".join(sign.gloss for sign in node.signs)
                 found.setdefault(call.rule, []).append(_note(said or call.rule, node))
     return [tier for rule in found for tier in in_lanes(f"{RULE} {rule}", RULE, found[rule])]
@@ -187,6 +202,9 @@ def _own_files(calls: Iterable[Call]) -> frozenset[str]:
 
 
 def _moved(score: Score) -> frozenset[str]:
+    """Return the parts that a score moves; a recorded sign is taken for one of both hands."""
+    if any(isinstance(leaf.score, Recorded) for leaf in leaves(score)):
+        return frozenset(HANDS.values())
     return frozenset(
         articulator_of(constraint)
         for leaf in leaves(score)

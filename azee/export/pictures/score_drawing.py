@@ -8,14 +8,14 @@ and a mark at each key.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from azee.export.pictures.shapes import Drawing, Line, Rect, Shape, Text, Told
 from azee.export.score_layout import GAP, LEAF_HEIGHT, Box, boundaries, flattened, nested
 from azee.export.track_rows import Bar, Row
-from azee.score.score import Blank, Group, Hold, Key, Score
+from azee.score.score import Blank, Group, Hold, Key, Recorded, Score
 
 MARGIN = 28.0
 INSET = 2.5
@@ -74,7 +74,7 @@ def score_drawing(score: Score, rows: Sequence[Row] = ()) -> Drawing:
         *(shape for box in leaf_boxes for shape in _box(box, axis, *edges)),
         *_rows(rows, axis, tracks_top),
         *_time_line(axis, bottom),
-        *_legend(left, bottom + 50, bool(rows)),
+        *_legend(left, bottom + 50, {_kind(box) for box in leaf_boxes}, bool(rows)),
     ]
     return Drawing(
         whole.title, max(axis.x(axis.end) + MARGIN, NARROWEST_PICTURE), bottom + 66.0, tuple(shapes)
@@ -127,6 +127,8 @@ def _kind(box: Box) -> str:
             return "hold"
         case Blank():
             return "blank"
+        case Recorded():
+            return "recorded"
         case Key():
             return "leaf"
 
@@ -200,12 +202,13 @@ def _time_line(axis: _Axis, y: float) -> Iterable[Shape]:
         yield Text(f"{float(time):g} s", x, y + 19, "tick")
 
 
-def _legend(x: float, y: float, tracks: bool) -> Iterable[Shape]:
-    for kind, meaning in (*LEGEND, ("track", "a block's own coordinates")):
-        if kind != "track" or tracks:
-            yield Rect(kind, x, y - 10, 16, 12, 2)
-            yield Text(meaning, x + 22, y, "small")
-            x += 22 + width(meaning) + 18
+def _legend(x: float, y: float, kinds: Container[str], tracks: bool) -> Iterable[Shape]:
+    recorded = [("recorded", "a recorded sign")] if "recorded" in kinds else []
+    of_tracks = [("track", "a block's own coordinates")] if tracks else []
+    for kind, meaning in (*LEGEND, *recorded, *of_tracks):
+        yield Rect(kind, x, y - 10, 16, 12, 2)
+        yield Text(meaning, x + 22, y, "small")
+        x += 22 + width(meaning) + 18
 
 
 def _shortened(text: str, room: float) -> str:

@@ -23,6 +23,7 @@ BOXES: dict[str, tuple[tuple[str, ...], str]] = {
     "leaf": (("#d3d3d3",), "#555555"),
     "hold": (("#eeeeee",), "#555555"),
     "blank": (("#ffffff",), "#888888"),
+    "recorded": (("#f3dfc1",), "#8a5a14"),
     "track": (("#d9e5f2",), "#5b7fa6"),
 }
 """Fill and outline of each kind; fills of groups alternate."""

@@ -23,6 +23,7 @@ text { font: 12px system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif; fi
 .leaf { stroke: #555; fill: #d3d3d3 }
 .hold { stroke: #555; fill: url(#stripes) }
 .blank { stroke: #888; fill: #fff; stroke-dasharray: 3 3 }
+.recorded { stroke: #8a5a14; fill: #f3dfc1 }
 .track { stroke: #5b7fa6; fill: #d9e5f2 }
 .mark { stroke: #1f4e86; stroke-width: 2 }
 .grid { stroke: #e3e3e3 }

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -22,6 +22,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.clip.quintic import State, quintic
 from azee.motion.curves.manner import share_of_way
 from azee.motion.curves.minimum_jerk import curve_through
 from azee_solver.constraint import Manner
@@ -87,7 +88,9 @@ class LimbKey:
     time_s: on the score's time line. values: the limb's coordinates, radians. passing: the limb
     moves through it without stopping. held: something needs the limb from here until its next key.
     neutral_s: time of the transition from or to neutral; by default that of `transition_s`.
-    manner: how the limb arrives, if it has stopped before.
+    manner: how the limb arrives, if it has stopped before. state: how it moves there, where a
+    recording starts or ends. plays: the recording until the next key: coordinates at times.
+    way_s: how long the recording gives the limb to come to the key, or to go from it.
     """
 
     time_s: float
@@ -96,6 +99,9 @@ class LimbKey:
     held: bool = False
     neutral_s: float | None = None
     manner: Manner | None = None
+    state: State | None = None
+    plays: Callable[[Array], Array] | None = None
+    way_s: float = 0.0
 
     def transition_s(self, neutral: Array) -> float:
         """Time of the transition from or to neutral."""
@@ -185,6 +191,9 @@ class _Run:
         self._values = np.stack([key.values for key in keys])
         self._still = bool(np.all(self._values == self._values[0]))
         self._onsets, self._manner = onsets, keys[-1].manner
+        self._plays, self._moving = keys[0].plays, any(key.state for key in keys)
+        first, last = (key.state or State.at_rest(key.values) for key in (keys[0], keys[-1]))
+        self._ends = first, last
 
     def sample(self, times_s: Array, out: Array) -> None:
         """Fill in the rows of the times inside, both ends included."""
@@ -193,7 +202,13 @@ class _Run:
         if first == last:
             return
         rows, values = slice(first, last), self._values
-        if self._still or self.end_s <= self.start_s:
+        if self._plays is not None:
+            out[rows] = self._plays(times_s[rows])
+        elif self._moving and self.end_s > self.start_s:
+            start, end = self._ends
+            since_s, span_s = times_s[rows] - self.start_s, self.end_s - self.start_s
+            out[rows] = quintic(start, end, span_s, since_s)
+        elif self._still or self.end_s <= self.start_s:
             out[rows] = values[-1]
         elif len(values) == 2 and self._onsets is not None:
             a, b = self._onsets.within(values[0], values[1], self.end_s - self.start_s)
@@ -220,9 +235,12 @@ def limb_curve(keys: Sequence[LimbKey], neutral: Array, onsets: Onsets | None = 
     out = [LimbKey(first.time_s - first.transition_s(neutral), neutral)]
     for key, following in pairwise(keys):
         out.append(key)
+        if key.plays is not None:
+            continue
         gap = following.time_s - key.time_s
         back, forth = key.transition_s(neutral), following.transition_s(neutral)
-        if not key.held and gap > DIRECT_WITHIN_S and gap >= back + forth:
+        idle = gap - key.way_s - following.way_s
+        if not key.held and idle > DIRECT_WITHIN_S and gap >= back + forth:
             out.append(LimbKey(key.time_s + back, neutral))
             out.append(LimbKey(following.time_s - forth, neutral))
     out.append(last)
@@ -231,9 +249,13 @@ def limb_curve(keys: Sequence[LimbKey], neutral: Array, onsets: Onsets | None = 
 
 
 def _stopping_at_first_and_last(keys: list[LimbKey]) -> list[LimbKey]:
-    """Let the limb stop at its first and last key, next to the outermost neutral ones."""
+    """Let the limb stop at its first and last key, next to the outermost neutral ones.
+
+    A recording starts where it stops, or takes over from one movement between two keys.
+    """
     out = []
     for i, key in enumerate(keys):
         outermost = i in (0, 1, len(keys) - 2, len(keys) - 1)
-        out.append(replace(key, passing=key.passing and not outermost))
+        beside = any(other.state is not None for other in keys[max(0, i - 1) : i + 2])
+        out.append(replace(key, passing=key.passing and not (outermost or beside)))
     return out

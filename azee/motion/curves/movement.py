@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.curves.limb_curves import (
+    SHORTEST_S,
     LimbCurve,
     LimbKey,
     Onsets,
@@ -20,6 +22,7 @@ from azee.motion.curves.via_points import ViaPoint
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.key_posture import KeyPosture
 from azee.motion.tasks.limbs import Limbs, channel_of_limb, is_finger, place_in_arm
+from azee.motion.tasks.recordings import RecordedBlock
 from azee.score.interval import Interval
 from azee_rig.coordinates import Coordinates
 from azee_rig.rig import Rig
@@ -69,7 +72,7 @@ class Interpolation:
 
     limbs_in_use: limbs that something needs, by when. rest: (V,) where limbs are that nothing
     needs. hands_together: an arm and its fingers leave their rest and return to it in the same
-    time; otherwise each limb takes its own.
+    time; otherwise each limb takes its own. recorded: signs that are played meanwhile.
     """
 
     rig: Rig
@@ -77,6 +80,7 @@ class Interpolation:
     limbs_in_use: IntervalIndex[frozenset[str]]
     rest: Array
     hands_together: bool = True
+    recorded: Sequence[RecordedBlock] = ()
 
     def through(self, postures: Iterable[KeyPosture]) -> Movement:
         """Return the movement through key postures: each limb goes through those that key it."""
@@ -84,7 +88,12 @@ class Interpolation:
         times = self._rest_s(ordered) if self.hands_together else {}
         curves = {}
         for limb, members in self.limbs.members.items():
-            own = [p for p in ordered if limb in p.limbs]
+            recorded = [block for block in self.recorded if limb in block.limbs]
+            own = [
+                p
+                for p in ordered
+                if limb in p.limbs and not any(block.plays(p.time) for block in recorded)
+            ]
             held = [self._is_held(limb, a, b) for a, b in pairwise(own)]
             keys = [
                 LimbKey(
@@ -93,6 +102,8 @@ class Interpolation:
                 )
                 for p, h in zip(own, [*held, False], strict=False)
             ]  # fmt: skip
+            keys += [key for block in recorded for key in _recorded_keys(block, members)]
+            keys.sort(key=lambda key: key.time_s)
             curves[limb] = limb_curve(keys, self.rest[members], self._onsets(limb))
         return Movement(self.rig.coordinates, self.limbs, curves)
 
@@ -161,6 +172,30 @@ class Interpolation:
             for posture, longest in zip(some, WAY_PARTS * parts.max(axis=1), strict=True):
                 out[posture] = dict(zip(arms, longest.tolist(), strict=True))
         return out
+
+
+def _recorded_keys(block: RecordedBlock, members: NDArray[np.int64]) -> Iterator[LimbKey]:
+    """Yield the keys between which a limb plays a recording."""
+    attack_s = float(block.body.start - block.interval.start)
+    decay_s = float(block.interval.end - block.body.end)
+    first = _recorded_key(block, members, block.start_s, attack_s)
+    if block.start_s == block.end_s:
+        yield replace(first, way_s=max(attack_s, decay_s))
+        return
+    yield replace(first, plays=partial(_played, block, members))
+    yield _recorded_key(block, members, block.end_s, decay_s)
+
+
+def _recorded_key(
+    block: RecordedBlock, members: NDArray[np.int64], time_s: float, way_s: float
+) -> LimbKey:
+    state = block.state(time_s).part(members)
+    neutral_s = max(way_s, SHORTEST_S)
+    return LimbKey(time_s, state.values, state=state, way_s=way_s, neutral_s=neutral_s)
+
+
+def _played(block: RecordedBlock, members: NDArray[np.int64], times_s: Array) -> Array:
+    return block.sample(times_s)[:, members]
 
 
 def _manner(limb: str, posture: KeyPosture) -> Manner | None:

@@ -57,6 +57,7 @@ class InBetweenSolver:
             return []
         samples = sample_movement(movement, times, self.monitor.evaluator)
         every_limb = frozenset(self.selection.limbs.names)
+        played = self.monitor.schedule.recorded
         out = []
         for i, (time, q) in enumerate(zip(times, samples.q, strict=True)):
             now = samples.only(slice(i, i + 1))
@@ -67,10 +68,11 @@ class InBetweenSolver:
             tasks = [*posture_tasks, *(p.motion.task for p in paths)]
             ik_tasks = ik_tasks_at(posture_tasks, time, on_paths)
             changing = beginning_or_ending(posture_tasks, time) if origin is Origin.BOUNDARY else []
-            report = self._nearest(now, tasks, changing, ik_tasks)
+            owned = frozenset(n for b in played for n in b.limbs if b.plays(time))
+            report = self._nearest(now, tasks, changing, ik_tasks, owned)
             unmet = {c.task.constraint for c in report.constraints if not c.met}
             urgent = [*changing, *(t for t in tasks if t.constraint in unmet)]
-            keyed = self.selection.between_boundaries(urgent, report.coordinates - q)
+            keyed = self.selection.between_boundaries(urgent, report.coordinates - q) - owned
             out.append(
                 KeyPosture(
                     time, report.coordinates, keyed,
@@ -86,6 +88,7 @@ class InBetweenSolver:
         tasks: Sequence[TimedTask],
         changing: Sequence[TimedTask],
         ik_tasks: Sequence[Task],
+        owned: frozenset[str],
     ) -> SolveReport:
         """Return the answer nearest to where a movement is at one instant.
 
@@ -93,12 +96,13 @@ class InBetweenSolver:
         worst searches globally with all of them, unless nothing is unmet but what is infeasible.
 
         Args: now: the movement then. tasks: all in force. changing: those that must have a key.
+            owned: limbs of recordings, which stay.
         """
         q = now.q[0]
         report, fixed = None, frozenset[int]()
         off = frozenset(t for t in tasks if self._is_off(t, now))
         for free in self._widening(tasks, off.union(changing)):
-            fixed = self._all_but(free)
+            fixed = self._all_but(free - owned)
             report = self.solver(ik_tasks, start=q, reference=q, search=Search.LOCAL, fixed=fixed)
             undisturbed = _undisturbed(tasks, off, free)
             if all(not c.missed or c.task.rank in undisturbed for c in report.constraints):

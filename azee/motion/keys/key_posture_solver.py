@@ -9,14 +9,15 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.curves.limb_curves import transition_s
+from azee.motion.curves.limb_curves import DIRECT_WITHIN_S, transition_s
 from azee.motion.keys.incremental import solve_incrementally
 from azee.motion.keys.neutral import SELF_RETURNING, ReturnToNeutral
 from azee.motion.keys.transpath import PathMotion, limbs_on_paths
 from azee.motion.tasks.interval_index import IntervalIndex
-from azee.motion.tasks.key_posture import KeyPosture, Origin, PostureSolver
+from azee.motion.tasks.key_posture import KeyPosture, Origin, PostureSolver, Search
 from azee.motion.tasks.key_selection import KeySelection, beginning_or_ending
 from azee.motion.tasks.limbs import CARRIERS, Limbs
+from azee.motion.tasks.recordings import RecordedBlock, imposed
 from azee.motion.tasks.timed_task import TimedTask, ik_tasks_at, limbs_moved, limbs_used
 from azee_rig.coordinates import Coordinates
 from azee_solver.solve_report import SolveReport
@@ -35,7 +36,8 @@ class KeyPostureSolver:
     one block goes on constraining, so that no sign inherits an odd elbow from the last one.
 
     path_motions: by when they are between their placements. neutral: knows which limbs have
-    returned to rest. current: (V,) the body after the last accepted posture.
+    returned to rest. recorded: signs that are played: all else is solved round them. current: (V,)
+    the body after the last accepted posture.
     """
 
     coordinates: Coordinates
@@ -43,6 +45,7 @@ class KeyPostureSolver:
     solver: PostureSolver
     path_motions: IntervalIndex[PathMotion]
     neutral: ReturnToNeutral
+    recorded: Sequence[RecordedBlock] = ()
     current: Array = field(init=False)
     last: KeyPosture | None = field(init=False, default=None)
     _released: dict[str, Fraction] = field(init=False, default_factory=dict)
@@ -71,7 +74,14 @@ class KeyPostureSolver:
         ik_tasks = ik_tasks_at(tasks, time)
         changing = [*beginning_or_ending(tasks, time), *ending_early]
         passing = limbs_on_paths(time, tasks, self.path_motions.at(time))
-        current = self.neutral.posture_at(self.current, self.last, time)
+        playing = imposed(self.recorded, [time], len(self.current))
+        mask = playing.mask[0]
+        current = self._after_recordings(
+            self.neutral.posture_at(self.current, self.last, time), time
+        )
+        current = np.where(mask, playing.values[0], current)
+        solver = _round_what_is_played(self.solver, mask)
+        owned = frozenset(n for block in self.recorded if block.plays(time) for n in block.limbs)
         returning = self._returning(time, tasks)
         answer: tuple[tuple[Task, ...], SolveReport] | None = None
         if self.last is not None and not returning:
@@ -79,28 +89,29 @@ class KeyPostureSolver:
             if reused is not None:
                 keyed, report = reused
                 return KeyPosture(
-                    time, current, keyed, passing, tuple(tasks), ik_tasks, report, origin,
+                    time, current, keyed - owned, passing, tuple(tasks), ik_tasks, report, origin,
                     reused=True,
                 )  # fmt: skip
         constrained = limbs_moved(tasks)
         if constrained:
             constrained |= {*CARRIERS}
-        reference = np.where(self._members(constrained), self.coordinates.idle, current)
+        free = self._members(constrained) & ~mask
+        reference = np.where(free, self.coordinates.idle, current)
         start = np.where(self._members(self._lasting(time, tasks) - returning), current, reference)
         if self.last is not None and not returning:
             answer = solve_incrementally(
                 self.last, tasks, ik_tasks, current, start, reference,
-                limbs=self.limbs, solver=self.solver,
+                limbs=self.limbs, solver=solver,
             )  # fmt: skip
         if answer is None:
-            answer = ik_tasks, self.solver(ik_tasks, start=start, reference=reference)
+            answer = ik_tasks, solver(ik_tasks, start=start, reference=reference)
         ik_tasks, report = answer
         keyed = self.selection.at_boundary(
             tasks, changing, report.coordinates - current, report.coordinates - reference
         )
         passing |= self.selection.passing_at_boundary(tasks, changing)
         return KeyPosture(
-            time, report.coordinates, keyed, passing, tuple(tasks), ik_tasks, report, origin
+            time, report.coordinates, keyed - owned, passing, tuple(tasks), ik_tasks, report, origin
         )
 
     def accept(self, posture: KeyPosture) -> KeyPosture:
@@ -116,6 +127,20 @@ class KeyPostureSolver:
         self.neutral.record(posture)
         self.last = posture
         return posture
+
+    def _after_recordings(self, posture: Array, time: Fraction) -> Array:
+        """Return a posture with limbs where recordings left them a short while ago, (V,)."""
+        out = posture.copy()
+        for block in self.recorded:
+            if not 0 < time - block.body.end <= DIRECT_WITHIN_S:
+                continue
+            last = block.sample(np.array([block.end_s]))[0]
+            for limb in block.limbs:
+                keyed = self.last is not None and limb in self.last.limbs
+                if not (keyed and self.last is not None and self.last.time >= block.body.end):
+                    members = self.limbs.members[limb]
+                    out[members] = last[members]
+        return out
 
     def _reused(
         self,
@@ -181,6 +206,27 @@ class KeyPostureSolver:
         """Return which coordinates belong to some limbs, (V,)."""
         chosen: NDArray[np.bool_] = np.array([n in limbs for n in self.limbs.names])
         return chosen[self.limbs.of_coordinate]
+
+
+def _round_what_is_played(solver: PostureSolver, mask: NDArray[np.bool_]) -> PostureSolver:
+    """Return a solver that leaves the coordinates of recordings where its start has them."""
+    if not mask.any():
+        return solver
+    played = frozenset(np.flatnonzero(mask).tolist())
+
+    def solve(
+        ik_tasks: Sequence[Task],
+        *,
+        start: Array,
+        reference: Array,
+        search: Search = Search.GLOBAL,
+        fixed: frozenset[int] = frozenset(),
+    ) -> SolveReport:
+        return solver(
+            ik_tasks, start=start, reference=reference, search=search, fixed=fixed | played
+        )
+
+    return solve
 
 
 def _answers(last: KeyPosture, ik_tasks: Iterable[Task]) -> bool:

@@ -71,8 +71,7 @@ class ReturnToNeutral:
         if last is not None:
             going_on = [t for t in last.timed_tasks if t.interval.end >= time]
         for limb, members in self.limbs.members.items():
-            needs_s = transition_s(current[members], self.posture[members])
-            if self._has_returned(limb, time, last, going_on, needs_s):
+            if self._has_returned(limb, time, current, last, going_on):
                 out[members] = self.posture[members]
         return out
 
@@ -80,13 +79,13 @@ class ReturnToNeutral:
         self,
         limb: str,
         time: Fraction,
+        current: Array,
         last: KeyPosture | None,
         going_on: Iterable[TimedTask],
-        needs_s: float,
     ) -> bool:
         """Whether a limb has returned by an instant.
 
-        Args: going_on: tasks of the last posture that last until now. needs_s: time to return.
+        Args: going_on: tasks of the last posture that last until now.
         """
         needed = self._needed.get(limb)
         if needed is None or last is None:
@@ -99,6 +98,8 @@ class ReturnToNeutral:
             starts = self._starts[limb]
             i = bisect_right(starts, since)
             needed_soon = i < len(starts) and starts[i] - since <= DIRECT_WITHIN_S
+            members = self.limbs.members[limb]
+            needs_s = transition_s(current[members], self.posture[members])
             return not needed_soon and time - since >= needs_s
         held = any(last.holds(limb, t.used_limbs) for t in going_on)
         return time - needed > DIRECT_WITHIN_S and not held

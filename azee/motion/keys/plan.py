@@ -72,7 +72,9 @@ def plan(
 
     # 5. Solve a key posture at every boundary of blocks, in order of time; those on paths wait.
     neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
-    key_solver = KeyPostureSolver(coordinates, selection, solver, index_by_time(motions), neutral)
+    key_solver = KeyPostureSolver(
+        coordinates, selection, solver, index_by_time(motions), neutral, schedule.recorded
+    )
     boundaries = solved or solve_boundaries(
         schedule, key_solver, evaluator.binding, deferred, needed_s
     )
@@ -80,7 +82,7 @@ def plan(
     # 6. Join the key postures to a movement, limb by limb, by minimum jerk.
     in_use = limbs_in_use(schedule, motions)
     interpolation = Interpolation(
-        evaluator.rig, limbs, in_use, rest, hands_together=not selection.flat
+        evaluator.rig, limbs, in_use, rest, not selection.flat, schedule.recorded
     )
     monitor = ResidualMonitor(evaluator, schedule, {}, boundaries.early_ends)
     in_between = InBetweenSolver(monitor, selection, solver, boundaries.unmet, boundaries.eased)
@@ -110,8 +112,9 @@ def plan(
 def limbs_in_use(
     schedule: TaskSchedule, motions: Iterable[PathMotion]
 ) -> IntervalIndex[frozenset[str]]:
-    """Return the limbs that tasks and paths use, by when they do."""
+    """Return the limbs that tasks, paths and recordings use, by when they do."""
     used = [
+        *((b.body, b.limbs) for b in schedule.recorded),
         *((t.interval, t.used_limbs) for t in schedule.posture_tasks),
         *((m.between, m.task.limbs) for m in motions),
     ]

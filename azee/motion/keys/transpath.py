@@ -132,7 +132,8 @@ class PathEnd:
     """Where a path starts or ends, and when.
 
     world: (3,) metres, in the key posture there. carrier: the point of trunk or head that the
-    placement there aims at, if it does, and at which phase. offset: (3,) from it to `world`.
+    placement there aims at, itself or by way of the other hand, and at which phase. offset: (3,)
+    from it to `world`.
     """
 
     time: Fraction
@@ -297,10 +298,10 @@ def anchor(
         world = evaluator.site(motion.constraint.site, frames)
         if placement is None or key is None:
             return PathEnd(time, world)
-        assert isinstance(placement.constraint, Place)
-        point, phase = placement.constraint.point, placement.phase(time)
-        if not depends_on(point) or not _on_trunk_or_head(point, evaluator):
+        carrier = _carrier(placement, key.timed_tasks, evaluator)
+        if carrier is None:
             return PathEnd(time, world)
+        point, phase = _place(carrier).point, carrier.phase(time)
         return PathEnd(time, world, point, phase, world - evaluator.point(point, frames, phase))
 
     out = {}
@@ -314,6 +315,32 @@ def anchor(
             end(motion, after, arriving, motion.end),
         )
     return out
+
+
+def _place(task: TimedTask) -> Place:
+    assert isinstance(task.constraint, Place)
+    return task.constraint
+
+
+def _carrier(
+    placement: TimedTask, among: Iterable[TimedTask], evaluator: Evaluator
+) -> TimedTask | None:
+    """Return the placement on trunk or head that a placement hangs on, if there is one.
+
+    A hand that touches the other one hangs on what the other one is placed at.
+    """
+    dominant = evaluator.binding.dominant
+    placed = {_place(t).site.key(dominant): t for t in among if isinstance(t.constraint, Place)}
+    seen: list[TimedTask] = []
+    now: TimedTask | None = placement
+    while now is not None and now not in seen:
+        seen.append(now)
+        point = _place(now).point
+        if depends_on(point) and _on_trunk_or_head(point, evaluator):
+            return now
+        names = [name for name in depends_on(point) if isinstance(name, Site)]
+        now = placed.get(names[0].key(dominant)) if len(names) == 1 else None
+    return None
 
 
 def _on_trunk_or_head(point: Point, evaluator: Evaluator) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 
-from azee.score.score import Hold, Key, Score, leaves
+from azee.score.score import Hold, Key, Recorded, Score, leaves
 from azee_solver.notation import constraint_text
 
 
@@ -20,5 +20,7 @@ def seed_of(score: Score) -> int:
             lines += map(constraint_text, leaf.score.constraints)
         elif isinstance(leaf.score, Hold):
             lines += (leaf.score.block, *leaf.score.channels)
+        elif isinstance(leaf.score, Recorded):
+            lines.append(leaf.score.motion.digest)
         digest.update("\n".join([*lines, ""]).encode())
     return int.from_bytes(digest.digest()[:8], "big")

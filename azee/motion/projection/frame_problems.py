@@ -67,11 +67,17 @@ class FrameProblems:
     options: SolveOptions
 
     def trajectory(
-        self, times: Sequence[Fraction], reference: Array, accented: Mask, fps: float
+        self,
+        times: Sequence[Fraction],
+        reference: Array,
+        accented: Mask,
+        played: Mask,
+        fps: float,
     ) -> Trajectory:
         """Return the problem of the frames at exact times, near a movement.
 
         Args: reference: (T, V). accented: (T, V), where accents ask for what the reference has.
+            played: (T, V), where the reference is kept.
         """
         coordinates = self.monitor.evaluator.rig.coordinates
         free_keep = self.options.posture * np.array(coordinates.stiffness) ** 2
@@ -79,7 +85,7 @@ class FrameProblems:
         free_keep[carriers] *= CARRIER_SHARE
         keep = np.tile(free_keep, (len(times), 1))
         keep[accented] = (ACCENT_SHARE * self.options.tolerance.angle_rad) ** -2
-        fixed = np.zeros(keep.shape, dtype=np.bool_)
+        fixed = played.copy()
         target = np.clip(reference, coordinates.lower, coordinates.upper)
         of_frame = np.empty(len(times), dtype=np.int64)
         programs: list[Program] = []
@@ -99,7 +105,7 @@ class FrameProblems:
             moving += self._paths(problem, rows, times)
             moving += self._moving_targets(problem, rows, times, reference)
         smooth = free_keep * (SMOOTH_S * fps) ** (2 * ORDER)
-        refilling = _Refilling(self.monitor.evaluator, len(times), moving)
+        refilling = _Refilling.of(self.monitor.evaluator, moving)
         return Trajectory(
             programs, of_frame, target, keep, fixed, smooth, coordinates.lower, coordinates.upper,
             self.options.overlap, refilling,
@@ -259,38 +265,60 @@ _Moving = _OnPath | _Numbers
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Refilling:
-    """Fills in the targets that move, in so many frames."""
+    """Fills in the targets that move.
+
+    numbers: by frame. paths: sites on paths, whose frames lie between `spans`, (P, 2), both ends
+    included.
+    """
 
     evaluator: Evaluator
-    count: int
-    moving: Sequence[_Moving]
+    numbers: Mapping[int, Sequence[_Numbers]]
+    paths: Sequence[_OnPath]
+    spans: NDArray[np.int64]
+
+    @staticmethod
+    def of(evaluator: Evaluator, moving: Iterable[_Moving]) -> _Refilling:
+        """Sort what moves by its frames."""
+        numbers: dict[int, list[_Numbers]] = {}
+        paths = []
+        for each in moving:
+            if isinstance(each, _Numbers):
+                numbers.setdefault(each.frame, []).append(each)
+            else:
+                paths.append(each)
+        spans = np.array([(p.frames[0], p.frames[-1]) for p in paths], dtype=np.int64)
+        return _Refilling(evaluator, numbers, paths, spans.reshape(-1, 2))
 
     def __call__(self, frames: range, q: Array) -> Refills:
         """Return the refills of some frames, in which the body has the postures q (T, V)."""
-        found: list[list[tuple[int, Array]]] = [[] for _ in frames]
+        found: list[list[tuple[int, Array]]] = [
+            [
+                pair
+                for n in self.numbers.get(t, ())
+                for pair in zip(n.entries, n.numbers, strict=True)
+            ]
+            for t in frames
+        ]
+        near = (self.spans[:, 0] < frames.stop) & (frames.start <= self.spans[:, 1])
         body: Frames | None = None
-        for moving in self.moving:
-            match moving:
-                case _Numbers(frame, entries, numbers):
-                    if frame in frames:
-                        found[frame - frames.start] += [*zip(entries, numbers, strict=True)]
-                case _OnPath(path, entry, on_it, progress):
-                    inside = (frames.start <= on_it) & (on_it < frames.stop)
-                    here = on_it[inside] - frames.start
-                    if not len(here):
-                        continue
-                    body = body or kinematics.frames(self.evaluator.rig.chain, q)
-                    then = Frames(body.positions[here], body.rotations[here])
-                    numbers = np.zeros((len(here), 5))
-                    numbers[:, :3] = path.targets_at(progress[inside], then, self.evaluator)
-                    for row, target in zip(here.tolist(), numbers, strict=True):
-                        found[row].append((entry, target))
+        for k in np.flatnonzero(near).tolist():
+            path = self.paths[k]
+            inside = (frames.start <= path.frames) & (path.frames < frames.stop)
+            here = path.frames[inside] - frames.start
+            if not len(here):
+                continue
+            body = body or kinematics.frames(self.evaluator.rig.chain, q)
+            then = Frames(body.positions[here], body.rotations[here])
+            numbers = np.zeros((len(here), 5))
+            numbers[:, :3] = path.path.targets_at(path.progress[inside], then, self.evaluator)
+            for row, target in zip(here.tolist(), numbers, strict=True):
+                found[row].append((path.entry, target))
         counts = np.array([len(f) for f in found], dtype=np.int64)
         places = np.zeros((len(found), max(1, int(counts.max(initial=0)))), dtype=np.int64)
         filled = np.zeros((*places.shape, 5))
         for row, entries_of_row in enumerate(found):
-            for j, (entry, numbers) in enumerate(entries_of_row):
-                places[row, j], filled[row, j] = entry, numbers
+            for j, (entry, target) in enumerate(entries_of_row):
+                places[row, j], filled[row, j] = entry, target
         return Refills(counts, places, filled)
 
 

@@ -26,12 +26,13 @@ class Reference:
     """The movement that is wanted as far as constraints allow, at the frames of a clip.
 
     times: exact, on the score's time line. q: (T, V), not limited. accented: (T, V), where accents
-    ask for what q has.
+    ask for what q has. played: (T, V), where q is a recording's, which is not changed.
     """
 
     times: tuple[Fraction, ...]
     q: Array
     accented: NDArray[np.bool_]
+    played: NDArray[np.bool_]
 
 
 LEAD = 0.018
@@ -66,9 +67,28 @@ def on_living_body(planned: Plan, reference: Reference, seed: int | None) -> Pla
 
 def project(planned: Plan, reference: Reference, fps: float) -> Array:
     """Return the movement (T, V) nearest to a reference that meets what is in force, smoothly."""
-    problems = FrameProblems(planned.monitor, _weights_of_unmet(planned), SolveOptions())
-    problem = problems.trajectory(reference.times, reference.q, reference.accented, fps)
+    factors = {**_weights_beside_recordings(planned), **_weights_of_unmet(planned)}
+    problems = FrameProblems(planned.monitor, factors, SolveOptions())
+    problem = problems.trajectory(
+        reference.times, reference.q, reference.accented, reference.played, fps
+    )
     return problem.solve(fps)
+
+
+PLAYED_WEIGHT = 9.0
+"""Factor of the weight of what follows a recording: a fingertip on a forearm that moves by 20 cm in
+a second is then within .5 mm of it, not 1.2 mm."""
+
+
+def _weights_beside_recordings(planned: Plan) -> dict[int, float]:
+    """Return factors of the weights of tasks whose targets a recording moves, by rank."""
+    schedule = planned.monitor.schedule
+    return {
+        task.rank: PLAYED_WEIGHT
+        for block in schedule.recorded
+        for task in schedule.posture_tasks
+        if task.read_limbs & block.limbs
+    }
 
 
 GIVEN_UP_COST = 0.4

@@ -19,7 +19,8 @@ from typing import TypeAlias
 
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.requirement import Requirement
-from azee.score.score import Blank, Block, Group, Hold, Key, Leaf, Score, leaves
+from azee.score.interval import Interval
+from azee.score.score import Blank, Block, Group, Hold, Key, Leaf, Recorded, Score, leaves
 from azee_solver.constraint import Transpath, Trill
 
 
@@ -42,12 +43,25 @@ class Keyframe:
 
 
 @dataclass(frozen=True, slots=True)
+class RecordedLeaf:
+    """A recorded sign on the time line. path: names of the blocks that lead to it."""
+
+    path: tuple[str, ...]
+    interval: Interval
+    score: Recorded
+
+
+@dataclass(frozen=True, slots=True)
 class Timeline:
-    """A flattened score: its length, all it requires, and the keyframes at its boundaries."""
+    """A flattened score: its length, all it requires, and the keyframes at its boundaries.
+
+    recordings: its recorded signs.
+    """
 
     duration: Fraction
     requirements: tuple[Requirement, ...]
     keyframes: tuple[Keyframe, ...]
+    recordings: tuple[RecordedLeaf, ...] = ()
 
 
 def flatten(score: Score) -> Timeline:
@@ -67,7 +81,12 @@ def flatten(score: Score) -> Timeline:
     times = sorted({t for leaf in found for t in (leaf.interval.start, leaf.interval.end)})
     in_force = IntervalIndex((r.interval, r) for r in required)
     keyframes = tuple(Keyframe(t, tuple(in_force.at(t))) for t in times)
-    return Timeline(score.duration, tuple(required), keyframes)
+    recordings = tuple(
+        RecordedLeaf(leaf.path, leaf.interval, leaf.score)
+        for leaf in found
+        if isinstance(leaf.score, Recorded)
+    )
+    return Timeline(score.duration, tuple(required), keyframes, recordings)
 
 
 _Inside: TypeAlias = Mapping[tuple[str, ...], Sequence[Leaf]]
@@ -86,7 +105,7 @@ def _required(
                 )  # fmt: skip
         case Hold():
             yield from _held(leaf, leaf.score, inside, holding)
-        case Blank():
+        case Blank() | Recorded():
             pass
 
 

@@ -8,6 +8,7 @@ from functools import cached_property
 from azee.motion.tasks.flatten import Timeline
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import CARRIERS, Limbs, channels_of_constraint, limb_of_constraint
+from azee.motion.tasks.recordings import RecordedBlock, recorded_blocks
 from azee.motion.tasks.requirement import Requirement
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.rig import Rig
@@ -60,7 +61,7 @@ class TaskSchedule:
 
     timeline: the flattened score. posture_tasks: what key postures meet. transpaths: paths of
     sites between placements. accents: rotations that add to the posture beneath them. trills,
-    facial_morphs: what is laid on the finished movement.
+    facial_morphs: what is laid on the finished movement. recorded: signs that are played.
     """
 
     timeline: Timeline
@@ -69,6 +70,7 @@ class TaskSchedule:
     accents: tuple[TimedTask, ...]
     trills: tuple[TimedTask, ...]
     facial_morphs: tuple[TimedTask, ...]
+    recorded: tuple[RecordedBlock, ...] = ()
 
     @cached_property
     def in_force(self) -> IntervalIndex[TimedTask]:
@@ -131,6 +133,7 @@ def bind(
         accent = layered and is_accent(task)
         outside_postures = isinstance(constraint, Transpath | Trill) or facial or accent
         kinds[type(constraint) if outside_postures else object].append(task)
+    named = (*kinds[object], *kinds[Transpath], *kinds[Trill])
     return TaskSchedule(
         timeline,
         posture_tasks=tuple(kinds[object]),
@@ -138,6 +141,7 @@ def bind(
         accents=tuple(kinds[Rotate]),
         trills=tuple(kinds[Trill]),
         facial_morphs=tuple(kinds[Morph]),
+        recorded=recorded_blocks(timeline.recordings, named, rig, limbs, binding.dominant),
     )
 
 

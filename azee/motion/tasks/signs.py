@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Set
 from dataclasses import dataclass
 from fractions import Fraction
 
-from azee.score.score import Group, Score
+from azee.score.score import Group, Recorded, Score, leaves
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,8 @@ def signs(score: Score, manual: Iterable[tuple[str, ...]]) -> tuple[Sign, ...]:
 
     Args: manual: paths of the blocks that ask something of arms or fingers.
     """
-    paths = {path[:n] for path in manual for n in range(len(path) + 1)}
+    played = (leaf.path for leaf in leaves(score) if isinstance(leaf.score, Recorded))
+    paths = {path[:n] for path in (*manual, *played) for n in range(len(path) + 1)}
     found = _signs(score, (), Fraction(0), paths)
     return tuple(sorted(found, key=lambda s: (s.start_s, s.end_s)))
 
@@ -47,4 +48,5 @@ def _signs(
     if inside:
         yield from inside
     elif score.calls:
-        yield Sign(score.calls[-1].rule, float(start), float(start + score.duration))
+        name = score.calls[-1].recorded or score.calls[-1].rule
+        yield Sign(name, float(start), float(start + score.duration))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from azee.motion.tasks.key_posture import KeyPosture
 from azee.motion.tasks.key_selection import KeySelection
 from azee.motion.tasks.limbs import CARRIERS
+from azee.motion.tasks.recordings import RecordedBlock
 from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.coordinates import Coordinates
@@ -41,7 +42,8 @@ def tracks(
     Blocks that move the same hand or arm both have it in their track. Trunk and head, which carry
     others, are in the track of one block only: the one that names them, else the first to begin of
     those that move them. Accents have keys where they begin and end. Faces have no coordinates and
-    no track; trills have one without keys.
+    no track; trills have one without keys. Recordings have keys where their bodies
+    begin and end.
     """
     if selection.flat:
         keys = tuple(sorted({float(p.time) for p in postures}))
@@ -74,7 +76,14 @@ def tracks(
         names = tuple(coordinates.names[v] for v in sorted(moved))
         if names:
             out.append(Track(path, names, tuple(sorted(times)), float(first), float(last)))
-    return tuple(out)
+    return (*out, *(_recorded(block) for block in schedule.recorded if block.limbs))
+
+
+def _recorded(block: RecordedBlock) -> Track:
+    """Return what a recording moves, from the start of its attack to the end of its decay."""
+    names = tuple(block.coordinates.names[v] for v in block.members.tolist())
+    first, last = float(block.interval.start), float(block.interval.end)
+    return Track(block.path, names, (block.start_s, block.end_s), first, last)
 
 
 def _owners(limb: str, movers: Sequence[TimedTask]) -> Sequence[TimedTask]:

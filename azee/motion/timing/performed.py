@@ -204,14 +204,16 @@ def _solved(
     motions = path_motions(schedule, evaluator.binding.dominant)
     deferred = boundaries_on_paths(motions, schedule)
     neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
-    key_solver = KeyPostureSolver(coordinates, selection, solver, index_by_time(motions), neutral)
+    key_solver = KeyPostureSolver(
+        coordinates, selection, solver, index_by_time(motions), neutral, schedule.recorded
+    )
     boundaries = solve_boundaries(
         schedule, key_solver, evaluator.binding, deferred, measure.needed_s
     )
     postures = boundaries.postures
     in_use = limbs_in_use(schedule, motions)
     interpolation = Interpolation(
-        evaluator.rig, limbs, in_use, rest, hands_together=not selection.flat
+        evaluator.rig, limbs, in_use, rest, not selection.flat, schedule.recorded
     )
     movement = interpolation.through(postures)
     paths = anchor(motions, postures, movement, evaluator)

@@ -148,7 +148,9 @@ def _solved(
     motions = path_motions(schedule, binding.dominant)
     deferred = boundaries_on_paths(motions, schedule)
     neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
-    keys = KeyPostureSolver(rig.coordinates, selection, solver, index_by_time(motions), neutral)
+    keys = KeyPostureSolver(
+        rig.coordinates, selection, solver, index_by_time(motions), neutral, schedule.recorded
+    )
     return solve_boundaries(schedule, keys, binding, deferred).postures
 
 

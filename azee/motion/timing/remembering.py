@@ -1,4 +1,7 @@
-"""A posture solver that remembers its answers: bending a score asks for most postures again."""
+"""A posture solver that remembers its answers.
+
+Bending a score asks for most postures again, and so does a sign that comes back in a text.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ from azee_solver.task import Task
 Array = NDArray[np.float64]
 
 _Question: TypeAlias = tuple[
-    tuple[tuple[Constraint, float, tuple[str, ...], int, int], ...], bytes, bytes, frozenset[int]
+    tuple[tuple[Constraint, float, int, int], ...], bytes, bytes, frozenset[int]
 ]
 
 
@@ -29,9 +32,10 @@ MOST_ANSWERS = 2000
 class RememberingSolver:
     """Gives the answer of another solver, once more without solving where only times differ.
 
-    When a task starts does not matter for a posture; which of two tasks starts first does. Only
-    global searches are remembered: local ones belong to the frames of one movement. It may serve
-    several movements of one body with one strong hand, as while a text is edited.
+    When a task starts and in which block it stands does not matter for a posture; which of two
+    tasks starts first, or was written first, does. Only global searches are remembered: local ones
+    belong to the frames of one movement. It may serve several movements of one body with one strong
+    hand, as while a text is edited.
     """
 
     solver: PostureSolver
@@ -71,6 +75,7 @@ def _question(
     ik_tasks: Sequence[Task], start: Array, reference: Array, fixed: frozenset[int]
 ) -> _Question:
     """Return all that an answer depends on."""
-    order = {t: n for n, t in enumerate(sorted({t.start_s for t in ik_tasks}))}
-    asked = tuple((t.constraint, t.phase, t.path, t.rank, order[t.start_s]) for t in ik_tasks)
+    starts = {t: n for n, t in enumerate(sorted({t.start_s for t in ik_tasks}))}
+    ranks = {rank: n for n, rank in enumerate(sorted({t.rank for t in ik_tasks}))}
+    asked = tuple((t.constraint, t.phase, ranks[t.rank], starts[t.start_s]) for t in ik_tasks)
     return asked, start.tobytes(), reference.tobytes(), fixed

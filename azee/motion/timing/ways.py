@@ -151,12 +151,16 @@ class Ways:
 
     def along_paths(self, paths: Iterable[AnchoredPath], movement: Movement) -> Iterator[Way]:
         """Yield the ways of arms along the paths of sites."""
-        for path in paths:
+        moved = [
+            (path, sides)
+            for path in paths
+            if (sides := self._sides(path.motion.task)) and path.motion.start < path.motion.end
+        ]
+        times = [(float(p.motion.start), float(p.motion.end)) for p, _ in moved]
+        instants, at = np.unique(np.array(times).reshape(-1, 2), return_inverse=True)
+        postures = movement.sample(instants)[at.reshape(-1, 2)]
+        for (path, sides), ends in zip(moved, postures, strict=True):
             motion = path.motion
-            sides = self._sides(motion.task)
-            if not sides or motion.start >= motion.end:
-                continue
-            ends = movement.sample(np.array([float(motion.start), float(motion.end)]))
             points = self.evaluator.path(
                 motion.constraint.path,
                 path.start.world,

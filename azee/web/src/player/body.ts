@@ -1,6 +1,6 @@
 // A body that is drawn: the skinned meshes of a GLB, posed joint by joint.
 import {
-  type Bone, type BufferAttribute, Color, type MeshStandardMaterial, type Object3D, SkinnedMesh,
+  type Bone, Box3, type BufferAttribute, Color, type MeshStandardMaterial, type Object3D, SkinnedMesh,
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { clone } from 'three/addons/utils/SkeletonUtils.js';
@@ -76,6 +76,11 @@ export class Body implements Names {
     this.bones[0]!.position.fromArray(pose.root);
     for (const { influences, units } of this.morphed)
       units.forEach((unit, k) => { influences[k] = pose.weights[unit]!; });
+  }
+
+  /** Height of the top of the head in the bind pose, metres. */
+  get height(): number {
+    return new Box3().setFromObject(this.scene).max.y;
   }
 
   /** Multiplies the colour of what is worn above, as `cloth` of performs does. */

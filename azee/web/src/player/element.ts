@@ -26,13 +26,15 @@ export class AzeePlayer extends HTMLElement {
   private pose: Pose | null = null;
   private playback = new Playback(0, 0);
   private shown: Label | null = null;
+  private told: Playback['state'] = 'idle';
+  private last: Movement | null = null;
   private lastFrame: number | null = null;
   private frame = 0;
   private loading: Promise<void> = Promise.resolve();
   private seen = false;
   private observer: IntersectionObserver | null = null;
-  private address: string | null = null;
-  private bodyAddress: string | null = null;
+  private wanted: string | null = null; // clip, body and idle loop that were asked for last
+  private worn: string | null = null; // body and idle loop that are shown, or being loaded
 
   connectedCallback(): void {
     if (!this.shadowRoot) this.build();
@@ -48,7 +50,7 @@ export class AzeePlayer extends HTMLElement {
     cancelAnimationFrame(this.frame);
     this.frame = 0;
     this.stage?.close();
-    this.stage = this.body = this.address = this.bodyAddress = null;
+    this.stage = this.body = this.wanted = this.worn = null;
     this.shadowRoot?.querySelector('canvas')?.replaceWith(this.canvas());
   }
 
@@ -75,6 +77,11 @@ export class AzeePlayer extends HTMLElement {
     return this.playback.duration;
   }
 
+  /** Seconds into the idle loop. */
+  get idleTime(): number {
+    return this.playback.idling;
+  }
+
   get currentTime(): number {
     return this.playback.time;
   }
@@ -96,20 +103,22 @@ export class AzeePlayer extends HTMLElement {
   async perform(data: ArrayBuffer): Promise<void> {
     const clip = new WebClip(data);
     await this.dress(this.settings.avatar ?? clip.header.rig);
-    this.start(clip.on(this.body!));
+    if (this.body) this.start(clip.on(this.body));
   }
 
   /** Plays what is made of a body's joints and units, once the idle loop ends. */
   async performOn(make: (body: Body) => Movement): Promise<void> {
     await this.loading;
     if (!this.body) await this.dress(this.settings.avatar ?? 'signer');
-    this.start(make(this.body!));
+    if (this.body) this.start(make(this.body));
   }
 
+  /** Goes on where it was paused, or plays the last movement again. */
   play(): void {
-    if (this.playback.state === 'idle' && this.settings.src) void this.perform0(false);
-    else if (!this.playback.playing) return;
-    else {
+    if (this.playback.state === 'idle' || !this.playback.playing) {
+      if (this.last) this.start(this.last);
+      else if (this.settings.src) this.fetching(this.fetchClip(false));
+    } else {
       if (this.playback.time >= this.playback.duration) this.playback.seek(0);
       this.playback.paused = false;
     }
@@ -130,6 +139,16 @@ export class AzeePlayer extends HTMLElement {
     this.stage?.view.home();
   }
 
+  /** Whether time passes only by `advance`: for tests, and for whoever films a page. */
+  held = false;
+
+  /** Lets seconds pass, whatever the clock says. */
+  advance(seconds: number): void {
+    const ended = this.playback.advance(seconds);
+    this.update();
+    if (ended) this.dispatchEvent(new CustomEvent('azee-end'));
+  }
+
   /** For tests and measurements: joints in the world, what draws, milliseconds a frame. */
   inspect(frames = 0): {
     joints: Record<string, number[]>; device: string; frames_ms: number[]; view: number[];
@@ -138,8 +157,7 @@ export class AzeePlayer extends HTMLElement {
     if (!stage || !body) throw Error('nothing is shown yet');
     const frames_ms: number[] = [];
     for (let i = 0; i < frames; i++) {
-      this.playback.advance(1 / 30);
-      this.update();
+      this.advance(1 / 30);
       frames_ms.push(stage.timed());
     }
     const { turn, tilt, roll, away } = stage.view;
@@ -194,28 +212,35 @@ export class AzeePlayer extends HTMLElement {
       this.bar = null;
     }
     const { src, avatar } = this.settings;
-    const wanted = src ?? '';
-    if (wanted !== this.address || (avatar && this.bodyOf(avatar) !== this.bodyAddress)) {
-      this.address = wanted;
-      this.loading = src ? this.perform0(!this.settings.autoplay) : this.dress(avatar ?? 'signer');
-      this.loading.catch((error: unknown) => this.fail(error));
+    const wanted = JSON.stringify([src, avatar, this.settings.applyIdle]);
+    if (wanted !== this.wanted) {
+      this.wanted = wanted;
+      this.fetching(src ? this.fetchClip(!this.settings.autoplay) : this.dress(avatar ?? 'signer'));
     }
     void this.loading.then(() => this.stage?.arrange(this.settings), () => undefined)
       .catch((error: unknown) => this.fail(error));
     this.update();
   }
 
-  private async perform0(paused: boolean): Promise<void> {
-    const address = this.settings.src!;
+  private fetching(loading: Promise<void>): void {
+    this.loading = loading;
+    loading.catch((error: unknown) => this.fail(error));
+  }
+
+  private async fetchClip(paused: boolean): Promise<void> {
+    const address = this.settings.src!, { wanted } = this;
     const answer = await fetch(new URL(address, document.baseURI));
     if (!answer.ok) throw Error(`${address}: ${answer.status} ${answer.statusText}`);
     const clip = new WebClip(await answer.arrayBuffer());
     await this.dress(this.settings.avatar ?? clip.header.rig);
-    if (this.settings.applyIdle && paused) return; // it stands there and breathes
-    this.start(clip.on(this.body!), paused);
+    if (!this.body || this.wanted !== wanted) return; // something else was asked for meanwhile
+    const movement = clip.on(this.body);
+    if (this.settings.applyIdle && paused) this.last = movement; // until then the loop is shown
+    else this.start(movement, paused);
   }
 
   private start(movement: Movement, paused = false): void {
+    this.last = movement;
     this.playback.play(movement, paused);
     this.update();
   }
@@ -228,15 +253,17 @@ export class AzeePlayer extends HTMLElement {
   /** Shows a body, by name or address, with its idle loop. */
   private async dress(avatar: string): Promise<void> {
     const address = this.bodyOf(avatar);
-    if (address === this.bodyAddress && this.body) return;
-    this.bodyAddress = address;
+    const wear = `${address} ${this.settings.applyIdle}`;
+    if (wear === this.worn && this.body) return;
+    this.worn = wear;
     this.toggleAttribute('data-loading', true);
     try {
       const idle = this.settings.applyIdle ? fetch(address.replace(/body\/([^/]*)\.glb$/, 'idle/$1.azwc')) : null;
       const body = await loadBody(address);
-      if (this.bodyAddress !== address || !this.stage) return;
+      if (this.worn !== wear || !this.stage) return;
       this.body = body;
       this.pose = body.pose();
+      this.last = null;
       this.playback = new Playback(body.joints.length, body.units.length);
       this.playback.speed = this.settings.speed;
       this.playback.loop = this.settings.loop;
@@ -244,9 +271,10 @@ export class AzeePlayer extends HTMLElement {
       if (answer?.ok) this.playback.setIdle(new WebClip(await answer.arrayBuffer()).on(body));
       this.stage.show(body);
       await this.stage.arrange(this.settings);
+      this.update();
       this.dispatchEvent(new CustomEvent('azee-ready'));
     } finally {
-      if (this.bodyAddress === address) this.toggleAttribute('data-loading', false);
+      if (this.worn === wear) this.toggleAttribute('data-loading', false);
     }
   }
 
@@ -258,11 +286,7 @@ export class AzeePlayer extends HTMLElement {
     this.lastFrame = now;
     stage.fit();
     const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
-    if (playback.moving && !(still && playback.state === 'idle')) {
-      const ended = playback.advance(seconds);
-      this.update();
-      if (ended) this.dispatchEvent(new CustomEvent('azee-end'));
-    }
+    if (playback.moving && !this.held && !(still && playback.state === 'idle')) this.advance(seconds);
     if (stage.dirty) stage.draw();
   }
 
@@ -274,7 +298,11 @@ export class AzeePlayer extends HTMLElement {
       this.body.apply(this.pose);
       this.stage.dirty = true;
     }
-    const label = this.playback.label;
+    const { label, state } = this.playback;
+    if (state !== this.told) {
+      this.told = state;
+      this.dispatchEvent(new CustomEvent('azee-state', { detail: { state } }));
+    }
     if (label === this.shown) return;
     this.shown = label;
     this.dispatchEvent(new CustomEvent('azee-sign', { detail: { label } }) satisfies SignEvent);

@@ -34,6 +34,11 @@ export class Playback {
     return this.movement;
   }
 
+  /** Seconds into the idle loop. */
+  get idling(): number {
+    return this.idleTime;
+  }
+
   get duration(): number {
     return this.movement?.duration ?? 0;
   }
@@ -103,6 +108,7 @@ export class Playback {
     this.time = end;
     if (this.idle) {
       this.now = 'idle';
+      this.time = 0;
       this.movement = null;
     } else {
       this.paused = true;

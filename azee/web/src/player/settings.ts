@@ -94,7 +94,7 @@ export function readSettings(get: Get, complain: (message: string) => void): Set
     autoplay: flag('autoplay', false),
     loop: flag('loop', false),
     speed: number('speed', 1, SLOWEST, FASTEST),
-    applyIdle: flag('applyIdle', true),
+    applyIdle: flag('applyIdle', false),
     controls: flag('controls', true),
     restrictView: flag('restrictView', false),
     color: colour('color'),

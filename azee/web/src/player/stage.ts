@@ -37,6 +37,7 @@ export class Stage {
   show(body: Body): void {
     if (this.body) this.scene.remove(this.body.scene);
     this.body = body;
+    this.view.frame(body.height);
     this.scene.add(body.scene);
     this.dirty = true;
   }

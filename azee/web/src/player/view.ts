@@ -6,6 +6,7 @@ const FOV_DEG = 28;
 const HOME = { turn: 0, tilt: 0.03, roll: 0, away: 2.75 };
 const NEAREST_M = 0.4, FARTHEST_M = 8;
 const RESTRICTED = { turn: 1.2, tilt: 0.5, nearest: 1.2, farthest: 4 };
+const HEIGHT_M = 1.67, LOOKED_AT = 0.72; // of a body, and the share of it that is in the middle
 const RAD_PER_PIXEL = 1 / 180;
 const KEY_RAD = 0.1, KEY_ZOOM = 1.1;
 const WIDTH_M = 1.25; // of the signing space, which a narrow picture shows too
@@ -14,13 +15,14 @@ const Y = new Vector3(0, 1, 0), X = new Vector3(1, 0, 0), Z = new Vector3(0, 0, 
 export class View {
   readonly camera = new PerspectiveCamera(FOV_DEG, 1, 0.05, 30);
   /** What the camera looks at: between chin and belly. */
-  readonly target = new Vector3(0, 1.2, 0);
+  readonly target = new Vector3(0, LOOKED_AT * HEIGHT_M, 0);
   /** Whether the view stays near the front, without rolling. */
   restricted = false;
   turn = HOME.turn;
   tilt = HOME.tilt;
   roll = HOME.roll;
   away = HOME.away;
+  private size = 1; // of the body, beside one of HEIGHT_M
   private readonly touches = new Map<number, { x: number; y: number }>();
 
   /** `changed` is called whenever the view is another. */
@@ -33,6 +35,13 @@ export class View {
     element.addEventListener('wheel', event => this.wheel(event), { passive: false });
     element.addEventListener('keydown', event => this.key(event));
     element.addEventListener('contextmenu', event => event.preventDefault());
+    this.place();
+  }
+
+  /** Fits the picture to a body of some height. */
+  frame(height: number): void {
+    this.size = height / HEIGHT_M;
+    this.target.setY(LOOKED_AT * height);
     this.place();
   }
 
@@ -126,7 +135,7 @@ export class View {
       .multiply(new Quaternion().setFromAxisAngle(X, -this.tilt))
       .multiply(new Quaternion().setFromAxisAngle(Z, this.roll));
     this.camera.position.copy(this.target)
-      .add(new Vector3(0, 0, this.away * narrow).applyQuaternion(turned));
+      .add(new Vector3(0, 0, this.away * this.size * narrow).applyQuaternion(turned));
     this.camera.quaternion.copy(turned);
     this.camera.updateProjectionMatrix();
     this.changed();

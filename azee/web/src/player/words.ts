@@ -22,9 +22,7 @@ const ENGLISH = {
   nothing: 'None of this is known.',
   ended: 'The player has ended. This page can be closed.',
   unreachable: 'The player cannot be reached. Is it still running?',
-  words: 'signs',
-  azee: 'AZee',
-  letters: 'letters',
+  signs: 'signs',
 };
 
 export type Words = Readonly<typeof ENGLISH>;
@@ -51,9 +49,7 @@ const FRENCH: Words = {
   nothing: 'Rien de cela n’est connu.',
   ended: 'Le lecteur est arrêté. Cette page peut être fermée.',
   unreachable: 'Le lecteur ne répond pas. Fonctionne-t-il encore ?',
-  words: 'signes',
-  azee: 'AZee',
-  letters: 'lettres',
+  signs: 'signes',
 };
 
 /** Returns the words of a language tag such as `fr-CH`; English for any that is not known. */

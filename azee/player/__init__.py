@@ -1,0 +1,1 @@
+"""The player: a page on which a signer plays what one types; its server, and its static export."""

@@ -31,6 +31,7 @@ MODULES = {
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
     "capture": "benchmarks.capture",
+    "studio": "benchmarks.studio",
     "solver": "benchmarks.solver_bench",
 }
 

@@ -151,8 +151,9 @@ async function keys() {
   await page.keyboard.insertText(':arbre');
   await press('Enter');
   await signed(page);
+  const before = await page.evaluate(() => azeeStudio.signer.playing);
   await press('Control+Enter');
-  told.plays = await page.evaluate(() => azeeStudio.signer.playing);
+  told.toggles = before !== await page.evaluate(() => azeeStudio.signer.playing);
   await press('Control+Enter', 'Control+s');
   await page.waitForFunction(() => azeeStudio.document.state === 'saved');
   await press('F6');

@@ -11,6 +11,7 @@ import struct
 import subprocess
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -22,13 +23,13 @@ class Studio:
     """`azee studio` in a process of its own, with a new address after every start."""
 
     def __init__(self, folder: Path, kept: Path) -> None:
-        self._folder, self._kept = folder, kept
+        self.folder, self._kept = folder, kept
         self.start()
 
     def start(self) -> None:
         environment = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "azee", "studio", str(self._folder), "--no-browser",
+            [sys.executable, "-m", "azee", "studio", str(self.folder), "--no-browser",
              "--kept", str(self._kept)],
             env=environment, stderr=subprocess.PIPE, text=True,
         )  # fmt: skip
@@ -71,7 +72,8 @@ class Studio:
         sent = raw if raw is not None else None if body is None else json.dumps(body).encode()
         own = {"Origin": self.origin} if method != "GET" else {}
         try:
-            connection.request(method, path, sent, {**own, **(headers or {})})
+            with suppress(BrokenPipeError):  # it refuses before it has read everything
+                connection.request(method, path, sent, {**own, **(headers or {})})
             answer = connection.getresponse()
             return answer.status, answer.read()
         finally:

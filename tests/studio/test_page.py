@@ -65,7 +65,7 @@ def test_a_new_author_writes_errs_mends_sees_saves_and_comes_back(
 def test_everything_is_reached_by_keys_alone(browser: Node, studio: Studio, tmp_path: Path) -> None:
     told = journey(browser, "keys", studio)
     assert told["parts"] == ["text", "signer", "score", "text", "panel"]
-    assert told["plays"]
+    assert told["toggles"]
     assert told["loops"]
     assert told["block"]
     assert (told["tab"], told["tree"]) == ("tab-blocks", "treeitem")

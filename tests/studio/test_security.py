@@ -92,8 +92,10 @@ def test_no_name_leads_out_of_the_folder(studio: Studio, name: str) -> None:
         assert SECRET.encode() not in body
         assert b"root:" not in body
         assert status >= 400 or path.startswith("api/versions")
-    status, _ = studio.ask(f"api/file?name={name}", "PUT", {"text": "x", "digest": None})
-    assert status >= 400
+    before = sorted(studio.folder.parent.glob("*"))
+    studio.ask(f"api/file?name={name}", "PUT", {"text": "x", "digest": None})
+    assert sorted(studio.folder.parent.glob("*")) == before
+    assert (studio.folder.parent / "secret.azee").read_text() == SECRET
 
 
 def test_the_language_server_reads_nothing_outside_either(studio: Studio) -> None:

@@ -51,6 +51,12 @@ export class TextDocument {
     this.changed();
   }
 
+  /** Sends what is typed now, as before another text is opened. */
+  flush(): void {
+    clearTimeout(this.timer);
+    if (this.file && this.state === 'keeping') this.send();
+  }
+
   /** Sends everything that the server may not have, as after it came back. */
   resend(): void {
     this.watch();

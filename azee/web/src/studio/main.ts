@@ -1,22 +1,21 @@
 // The studio: text, signer, score and panels, linked.
 import { Blocks } from './blocks';
-import { TextDocument, type OnDisk } from './document';
+import { TextDocument } from './document';
 import { Editor } from './editor';
 import { choice, h } from './elements';
+import { Files, withSuffix } from './files';
 import { Layout, type PanelName } from './layout';
 import { Notices } from './notices';
 import { Film, Palette, Reasons, settingsPanel, Versions } from './panels';
 import type { Answer, Block, Diagnostic, Listing, Options } from './protocol';
 import { Score } from './score';
-import { Live, Refusal, server } from './server';
-import { CAMERAS, Signer } from './signer';
+import { Live, server } from './server';
+import type { Signer } from './signer';
+import { SignerPane } from './signer-pane';
 import { chosenLanguage, type Language, LANGUAGES, wordsOf } from './words';
 
 const COMPILE_MS = 40; // after the last key
 const RULES_MS = 700;
-const SPEEDS = [0.1, 0.25, 0.5, 0.75, 1, 1.5, 2];
-const FIRST = 'untitled.azee';
-const TEXT_SUFFIX = /\.az(ee)?$/;
 const parameters = new URLSearchParams(location.search);
 
 const language = chosenLanguage();
@@ -33,7 +32,6 @@ class Studio {
   readonly editor: Editor;
   readonly score: Score;
   readonly document: TextDocument;
-  signer: Signer | null = null;
   /** The number of the newest text that was sent, and of the newest that is shown. */
   sent = 0;
   shownNumber = 0;
@@ -49,20 +47,15 @@ class Studio {
   private rulesTimer = 0;
   private lsp = new Set<(message: string) => void>();
   private readonly layout: Layout;
+  private readonly pane: SignerPane;
   private readonly palette: Palette;
   private readonly reasons: Reasons;
   private readonly versions: Versions;
   private readonly film = new Film(words);
   private readonly blockList: Blocks;
   private readonly settings = h('div');
-  private readonly files = choice(words.file, [], '', name => void this.pickFile(name));
-  private readonly state = h('span', { class: 'state', role: 'status' });
-  private readonly status = h('p', { class: 'status', role: 'status' });
+  private readonly files: Files;
   private readonly problems = h('ul', { class: 'problems', 'aria-label': words.problems });
-  private readonly button = h('button', { type: 'button', class: 'play' });
-  private readonly slider = h('input', { type: 'range', min: 0, max: 1, step: 0.01, 'aria-label': words.time });
-  private readonly clock = h('output', {});
-  private readonly repeat = h('input', { type: 'checkbox', 'aria-label': words.loopBlock });
   private readonly formats = choice(words.export, [], '', suffix => void this.export(suffix));
 
   constructor() {
@@ -77,34 +70,41 @@ class Studio {
     this.blockList = new Blocks(words, () => ({ file: this.document.file, text: this.editor.text }),
       (from, to, insert) => this.editor.change(from, to, insert),
       from => this.editor.view.dispatch({ selection: { anchor: from }, scrollIntoView: true }));
+    this.files = new Files(words, () => this.document, () => this.editor, this.notices,
+      () => this.opened(), () => this.compile());
     const header = this.header();
     this.layout = new Layout(words, header, {
-      rules: this.palette.element, blocks: this.blockList.element, reasons: this.reasons.element, versions: this.versions.element,
-      film: this.film.element, settings: this.settings,
+      rules: this.palette.element, blocks: this.blockList.element, reasons: this.reasons.element,
+      versions: this.versions.element, film: this.film.element, settings: this.settings,
     }, panel => this.panelShown(panel));
     this.score = new Score(words.score, (block, play) => this.pick(block, play), time => this.signer?.seek(time));
     document.body.append(header, this.layout.main);
     const box = h('div', { class: 'editor' });
     this.layout.text.append(this.notices.element, box, this.problems);
     this.editor = new Editor(box, words.text, text => this.typed(text), offset => this.moved(offset), {
-      'Mod-s': () => void this.save(), 'Mod-Enter': () => this.signer?.play(!this.signer.playing),
+      'Mod-s': () => void this.files.save(), 'Mod-Enter': () => this.pane.toggle(),
     });
     this.layout.score.append(this.score.element);
-    this.makeSigner();
-    this.document = new TextDocument(() => this.live, () => this.showState());
+    this.pane = new SignerPane(this.layout.signer, words, () => this.tick(),
+      () => this.options.dominant === 'left');
+    this.document = new TextDocument(() => this.live, () => this.files.showState());
     this.live = new Live((answer, data) => this.got(answer, data), () => this.connected(),
       () => this.notices.show('offline', words.offline, 'warn'));
     addEventListener('keydown', event => {
       if ((event.ctrlKey || event.metaKey) && event.key === 's') {
         event.preventDefault();
-        void this.save();
+        void this.files.save();
       }
     });
   }
 
+  get signer(): Signer | null {
+    return this.pane?.signer ?? null;
+  }
+
   async begin(): Promise<void> {
     this.listing = await server.listing();
-    const { files, first, drafts, bodies } = this.listing;
+    const { bodies } = this.listing;
     if (!bodies.includes(this.options.rig)) this.options.rig = bodies[0]!;
     this.settings.replaceChildren(settingsPanel(words, bodies, this.options, options => this.set(options)));
     this.film.show(this.listing.films);
@@ -112,84 +112,14 @@ class Studio {
       ...this.listing.formats.map(suffix => h('option', { value: suffix }, suffix)));
     this.layout.begin();
     void this.dress();
-    await this.open(parameters.get('file') ?? first ?? files[0] ?? drafts[0] ?? FIRST);
+    await this.files.begin(this.listing, parameters.get('file'));
   }
 
-  // --- Files -----------------------------------------------------------------------------------
-
-  private listFiles(): void {
-    const { files, drafts } = this.listing!;
-    const names = [...new Set([...files, ...drafts, this.document.file])].sort();
-    this.files.replaceChildren(...names.map(name => h('option', { value: name }, name)),
-      h('option', { value: '' }, words.newFile));
-    this.files.value = this.document.file;
-  }
-
-  private async pickFile(name: string): Promise<void> {
-    const wanted = name || prompt(words.newName) || this.document.file;
-    const file = TEXT_SUFFIX.test(wanted) ? wanted : `${wanted}.azee`;
-    if (file !== this.document.file) await this.open(file);
-    this.listFiles();
-  }
-
-  private async open(name: string): Promise<void> {
-    let found;
-    try {
-      found = await server.open(name);
-    } catch (error) {
-      if (!(error instanceof Refusal) || error.status !== 404) {
-        this.notices.show('file', String((error as Error).message), 'warn');
-        return;
-      }
-      found = { file: name, text: '', digest: null, draft: null };
-    }
-    const { draft } = found;
-    const text = draft?.text ?? found.text;
-    this.editor.open(text, `${words.text}: ${name}`);
-    this.document.opened(found, text);
-    this.notices.clear('conflict');
-    if (draft && draft.digest !== found.digest) this.conflict({ digest: found.digest, text: found.text });
-    else if (draft)
-      this.notices.show('draft', words.restored, 'calm', [
-        [words.keep, () => undefined],
-        [words.discard, () => {
-          this.editor.replace(found.text);
-          void server.dropDraft(name);
-        }],
-      ]);
-    this.listFiles();
+  private opened(): void {
     this.chosen = null;
     this.speak();
     this.compile();
     void this.loadRules();
-  }
-
-  async save(): Promise<void> {
-    try {
-      const other = await this.document.save();
-      if (other) this.conflict(other);
-      else this.notices.clear('draft');
-    } catch (error) {
-      this.notices.show('save', (error as Error).message, 'warn');
-    }
-  }
-
-  private conflict(other: OnDisk): void {
-    const text = other.text === null ? words.conflictGone : words.conflict;
-    const take: [string, () => void][] = other.text === null ? [] : [[words.takeTheirs, () => {
-      this.document.rebase(other, other.text!);
-      this.editor.replace(other.text!);
-    }]];
-    this.notices.show('conflict', text, 'warn', [...take, [words.keepMine, () => {
-      this.document.rebase(other, this.editor.text);
-      void this.save();
-    }]]);
-  }
-
-  private showState(): void {
-    const text = { saved: words.saved, kept: words.unsaved, keeping: words.keeping }[this.document.state];
-    if (this.state.textContent !== text) this.state.textContent = text;
-    this.state.dataset['state'] = this.document.state;
   }
 
   // --- The live connection ---------------------------------------------------------------------
@@ -226,13 +156,13 @@ class Studio {
         this.document.keptUpTo(answer);
         break;
       case 'disk':
-        if (answer.file === this.document.file) this.changedOnDisk(answer);
+        if (answer.file === this.document.file) this.files.changedOnDisk(answer);
         break;
       case 'score':
         if (answer.number !== this.sent) break;
         this.showProblems(answer.diagnostics);
-        if (answer.blocks.length > 0) this.status.textContent = words.solving;
-        if (answer.blocks.length === 0) this.status.textContent = this.editor.text.trim() ? '' : words.nothing;
+        if (answer.blocks.length > 0) this.pane.status.textContent = words.solving;
+        if (answer.blocks.length === 0) this.pane.status.textContent = this.editor.text.trim() ? '' : words.nothing;
         break;
       case 'clip':
         if (answer.number === this.sent) this.showClip(answer, data);
@@ -244,24 +174,14 @@ class Studio {
         this.mark();
         break;
       case 'stopped':
-        this.status.textContent = `${words.stopped} ${answer.reason}`;
+        this.pane.status.textContent = `${words.stopped} ${answer.reason}`;
         break;
       case 'refused':
-        this.status.textContent = answer.message ?? '';
+        this.pane.status.textContent = answer.message ?? '';
         if (answer.diagnostics) this.showProblems(answer.diagnostics);
         break;
       default:
     }
-  }
-
-  private changedOnDisk(other: OnDisk): void {
-    if (other.digest === this.document.digest) return;
-    if (this.document.state === 'saved' && other.text !== null) {
-      this.document.rebase(other, other.text);
-      this.editor.replace(other.text, true);
-      this.compile();
-      this.notices.show('refreshed', words.refreshed, 'calm');
-    } else this.conflict(other);
   }
 
   private typed(text: string): void {
@@ -304,8 +224,7 @@ class Studio {
     });
     this.score.show(answer.blocks, answer.lead_s, this.signer?.duration ?? 1);
     this.chosen = this.blocks[this.score.chosen] ?? null;
-    this.slider.max = String(this.signer?.duration ?? 1);
-    this.status.textContent = '';
+    this.pane.status.textContent = '';
     if (answer.diagnostics.length > 0) this.showProblems(answer.diagnostics);
     if (!matchMedia('(prefers-reduced-motion: reduce)').matches && this.signer?.time === 0)
       this.signer.play(true);
@@ -323,13 +242,7 @@ class Studio {
   private pick(block: Block | null, play: boolean): void {
     this.chosen = block;
     this.reasons.choose(block);
-    if (block && this.signer) {
-      const start = block.start_s + this.lead, end = block.end_s + this.lead;
-      this.signer.loop = this.repeat.checked || play ? [start, end] : null;
-      if (play) this.repeat.checked = true;
-      this.signer.seek(start);
-      this.signer.play(play || this.signer.playing);
-    } else if (this.signer) this.signer.loop = null;
+    this.pane.go(block && [block.start_s + this.lead, block.end_s + this.lead], play);
     this.tick();
   }
 
@@ -361,13 +274,7 @@ class Studio {
     const { signer } = this;
     if (!signer) return;
     const running = this.score.now(signer.time);
-    this.slider.value = String(signer.time);
-    this.clock.textContent = `${(signer.time - this.lead).toFixed(2)} s`;
-    const label = signer.playing ? words.pause : words.play;
-    if (this.button.ariaLabel !== label) {
-      this.button.ariaLabel = label;
-      this.button.textContent = signer.playing ? '❚❚' : '▶';
-    }
+    this.pane.update(this.lead);
     const innermost = running.at(-1)?.place;
     const mark = JSON.stringify([innermost, this.placeOf(this.chosen)]);
     if (mark !== this.marked) {
@@ -405,7 +312,7 @@ class Studio {
     this.notices.show('export', words.exporting, 'calm');
     try {
       const data = await server.exported(this.document.file, this.editor.text, suffix, this.options);
-      const name = this.document.file.split('/').at(-1)!.replace(TEXT_SUFFIX, suffix);
+      const name = withSuffix(this.document.file, suffix);
       const link = h('a', { href: URL.createObjectURL(data), download: name });
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
@@ -432,42 +339,8 @@ class Studio {
       location.assign(address);
     });
     return h('header', { class: 'bar' },
-      h('h1', {}, words.title), this.files,
-      h('button', { type: 'button', class: 'save', onclick: () => void this.save() }, words.save),
-      this.state, h('span', { class: 'space' }), this.formats, tongues);
-  }
-
-  private makeSigner(): void {
-    const canvas = h('canvas', { tabindex: 0, role: 'img', 'aria-label': words.signer });
-    const stage = h('div', { class: 'stage' }, canvas, this.status);
-    this.layout.signer.append(stage);
-    try {
-      this.signer = new Signer(canvas, () => this.tick());
-    } catch {
-      this.status.textContent = words.noWebGL;
-      return;
-    }
-    const { signer } = this;
-    const cameras = Object.keys(CAMERAS) as (keyof typeof CAMERAS)[];
-    this.button.onclick = () => signer.play(!signer.playing);
-    this.button.ariaLabel = words.play;
-    this.button.textContent = '▶';
-    this.slider.oninput = () => { signer.play(false); signer.seek(Number(this.slider.value)); };
-    this.repeat.onchange = () => {
-      const { chosen } = this;
-      signer.loop = this.repeat.checked && chosen
-        ? [chosen.start_s + this.lead, chosen.end_s + this.lead] : null;
-    };
-    const step = (text: string, label: string, direction: 1 | -1): HTMLElement => h('button', {
-      type: 'button', 'aria-label': label, title: label, onclick: () => signer.frame(direction),
-    }, text);
-    this.layout.signer.append(h('div', { class: 'controls', role: 'group', 'aria-label': words.signer },
-      this.button, step('‹', words.before, -1), step('›', words.after, 1), this.slider, this.clock,
-      choice(words.speed, SPEEDS.map(speed => [String(speed), `${speed}×`] as const), String(signer.speed),
-        speed => { signer.speed = Number(speed); }),
-      h('label', { class: 'check', title: words.loopBlock }, this.repeat, '⟲'),
-      choice(words.camera, cameras.map(name => [name, words[name]] as const), 'front',
-        name => signer.look(name as keyof typeof CAMERAS, this.options.dominant === 'left'))));
+      h('h1', {}, words.title), this.files.list, this.files.button, this.files.state,
+      h('span', { class: 'space' }), this.formats, tongues);
   }
 }
 

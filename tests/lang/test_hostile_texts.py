@@ -23,8 +23,8 @@ def spent(text: str, monkeypatch: pytest.MonkeyPatch) -> tuple[int, tuple[Diagno
     machines: list[Machine] = []
     start = Machine.__init__
 
-    def counted(machine: Machine, *arguments: object) -> None:
-        start(machine, *arguments)  # type: ignore[arg-type]
+    def counted(machine: Machine, *arguments: object, **named: object) -> None:
+        start(machine, *arguments, **named)  # type: ignore[arg-type]
         machines.append(machine)
 
     monkeypatch.setattr(Machine, "__init__", counted)

@@ -270,8 +270,9 @@ def journey(seed: int) -> int:
 
 
 @pytest.mark.parametrize(
-    "part", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in range(1, 50))]
+    ("first", "count"),
+    [(0, 3), *(pytest.param(20 * k, 20, marks=pytest.mark.slow) for k in range(50))],
 )
-def test_journeys_between_both_views_lose_no_comment_and_no_word(part: int) -> None:
-    """Twenty journeys a part, 1,000 in all."""
-    assert sum(journey(20 * part + k) for k in range(20)) > 60
+def test_journeys_between_both_views_lose_no_comment_and_no_word(first: int, count: int) -> None:
+    """Twenty journeys a part, 1,000 in all; three of them are fast."""
+    assert sum(journey(first + k) for k in range(count)) > 3 * count

@@ -45,6 +45,7 @@ def test_markers_that_are_not_recorded_are_foretold_within_1_3_mm(
     assert np.nanmean(away(made.foretold, truth)) < 0.15 * np.nanmean(away(still, truth))
 
 
+@pytest.mark.slow
 def test_the_fitted_hand_is_inside_its_limits_and_near_the_markers(
     made: Reconstruction, held_out: Markers, model: CaptureModel
 ) -> None:
@@ -58,6 +59,7 @@ def test_the_fitted_hand_is_inside_its_limits_and_near_the_markers(
         assert 0.0 < marker["mean_off_m"] < 0.003
 
 
+@pytest.mark.slow
 def test_a_nearest_pose_is_worse_than_regression(
     made: Reconstruction, held_out: Markers, model: CaptureModel
 ) -> None:
@@ -96,6 +98,7 @@ SPOILT_M = {
 """Mean change of all markers in the frames concerned, at most."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", SPOILT_M)
 def test_bad_markers_change_little_and_make_no_jump(
     how: str, made: Reconstruction, held_out: Markers, model: CaptureModel
@@ -155,6 +158,7 @@ def test_a_model_is_the_same_bytes_and_reads_back(model: CaptureModel, tmp_path)
         read_model(path)
 
 
+@pytest.mark.slow
 def test_a_hand_is_shown_alone_or_over_a_movement(
     made: Reconstruction, model: CaptureModel
 ) -> None:

@@ -59,15 +59,20 @@ def test_trills_of_rules_are_seen_at_the_finger_tips(signer: Rig) -> None:
             assert np.median(ways) > SEEN_M, (name, ways)
 
 
-def angles(trill: Trill, duration_s: int = 1) -> NDArray[np.float64]:
-    """Return the angles of a trill of a block, degrees, at a thousand instants a second."""
-    whole = Interval(Fraction(0), Fraction(duration_s))
+def oscillation(trill: Trill, whole: Interval) -> Oscillation:
+    """A trill of a block, on one coordinate."""
     task = TimedTask(
         Requirement(trill, ("A",), None, whole, whole, 0),
         "arm_R", frozenset(), frozenset(), frozenset(), frozenset(), False,
     )  # fmt: skip
+    return Oscillation(task, np.zeros(1), 1.0)
+
+
+def angles(trill: Trill, duration_s: int = 1) -> NDArray[np.float64]:
+    """Return the angles of a trill of a block, degrees, at a thousand instants a second."""
     times = np.arange(0, 1000 * duration_s + 1) / 1000
-    return np.degrees(Oscillation(task, np.zeros(1), 1.0).angles(times))
+    found = oscillation(trill, Interval(Fraction(0), Fraction(duration_s))).angles(times)
+    return np.degrees(found)
 
 
 PALM, UP = Bone("palm", Side.STRONG), Vec(0.0, 1.0, 0.0)
@@ -93,6 +98,13 @@ def test_a_trill_starts_at_its_phase() -> None:
         for phase in (0.0, math.pi / 2)
     )
     np.testing.assert_allclose(late[200:600], early[325:725], atol=1e-9)
+    np.testing.assert_allclose([early[125], early[375], late[250]], [20, -20, -20], atol=1e-9)
+
+
+def test_a_trill_shorter_than_two_fades_is_whole_in_its_middle() -> None:
+    short = oscillation(Trill(PALM, UP, 2.0, 0.3), Interval(Fraction(1), Fraction("1.1")))
+    np.testing.assert_allclose(short.envelope(np.array([1.0, 1.05, 1.1])), [0, 1, 0], atol=1e-9)
+    assert 2 * FADE_S > 0.1
 
 
 def test_two_trills_half_a_cycle_apart_are_opposite() -> None:

@@ -148,15 +148,20 @@ def test_arms_of_two_lengths_are_told(body: Body, share: float, doubted: bool) -
     ("ahead_m", "doubted"), [(0.12, False), (0.0, False), (-0.01, False), (-0.03, True)]
 )
 def test_toes_that_point_backwards_are_told(body: Body, ahead_m: float, doubted: bool) -> None:
+    """A joint that twists a thigh is below one that is kept too, and is no toe."""
     toes = [
-        (f"{side}ToeBase", body.names.index(f"{side}Foot"), (0.0, -0.05, ahead_m))
+        (name, body.names.index(f"{side}{joint}"), way)
         for side in ("Left", "Right")
+        for name, joint, way in (
+            (f"{side}ToeBase", "Foot", (0.0, -0.05, ahead_m)),
+            (f"{side}UpLegTwist", "UpLeg", (0.0, -0.1, 0.0)),
+        )
     ]
     walking = replace(
         body,
         names=(*body.names, *(name for name, _, _ in toes)),
-        parents=(*body.parents, *(foot for _, foot, _ in toes)),
-        places=np.vstack([body.places, *(body.places[foot] + way for _, foot, way in toes)]),
+        parents=(*body.parents, *(joint for _, joint, _ in toes)),
+        places=np.vstack([body.places, *(body.places[joint] + way for _, joint, way in toes)]),
     )
     doubts = _doubts(walking, propose(_tree(walking)))
     assert any("the toes point backwards" in doubt for doubt in doubts) == doubted

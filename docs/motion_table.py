@@ -40,11 +40,7 @@ def _row(name: str, mode: Mode, made: Compilation) -> str:
     fastest = max(report.peaks, key=lambda p: p.speed)
     keys = [p for p in report.postures if not p.reused]
     depth = max(
-        (
-            p.depth_m
-            for p in report.clip_penetration
-            if not p.intended and p.depth_m > SHOWS_M
-        ),
+        (p.depth_m for p in report.clip_penetration if not p.intended and p.depth_m > SHOWS_M),
         default=0.0,
     )
     cells = (

@@ -103,7 +103,8 @@ def test_a_trill_starts_at_its_phase() -> None:
 
 def test_a_trill_shorter_than_two_fades_is_whole_in_its_middle() -> None:
     short = oscillation(Trill(PALM, UP, 2.0, 0.3), Interval(Fraction(1), Fraction("1.1")))
-    np.testing.assert_allclose(short.envelope(np.array([1.0, 1.05, 1.1])), [0, 1, 0], atol=1e-9)
+    faded = short.envelope(np.array([1.0, 1.025, 1.05, 1.075, 1.1]))
+    np.testing.assert_allclose(faded, [0, 0.5, 1, 0.5, 0], atol=1e-9)
     assert 2 * FADE_S > 0.1
 
 

@@ -43,6 +43,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("clip", "cut", "--help"): set(),
     ("repl", "--help"): set(),
     ("repl",): {"lark"},
+    ("play", "--help"): set(),
     ("rig", "--help"): set(),
     ("corpus", "stats", "--help"): set(),
     ("db", "add", "--help"): set(),

@@ -26,7 +26,7 @@ check: $(READY) ## check format, lint and types and run the fast tests; use befo
 	@$(RUN) -m ruff check .
 	@$(RUN) -m mypy
 	@$(RUN) -m mypy $(wildcard $(addsuffix /**/*.py,$(TYPED)) $(addsuffix /*.py,$(TYPED)))
-	@HYPOTHESIS_PROFILE=quick $(RUN) -m pytest -q -n auto -m "not slow and not node and not browser"
+	@HYPOTHESIS_PROFILE=quick $(RUN) -m pytest -q -n auto --dist loadfile -m "not slow and not node and not browser"
 
 format: $(READY) ## format all files
 	@$(RUN) -m ruff format .
@@ -71,12 +71,15 @@ mutants: $(READY) ## tell which single changes no test sees: COUNT=50 to MODULES
 
 examples: $(READY) ## compile every example to every format but films, into out/examples
 	@$(RUN) examples/build.py --out out/examples
+	@$(RUN) examples/recorded.py --out out/examples
 
 films: $(READY) ## film every example and draw its key postures, into out/films
 	@$(RUN) examples/films.py --out out/films
+	@$(RUN) examples/recorded.py --out out/films --film
 
 pictures: $(READY) readme-picture ## draw all pictures of the documents and of the examples' folders again
 	@$(RUN) examples/build.py --out out/examples --keep-pictures
+	@$(RUN) examples/recorded.py --out out/examples --keep-pictures
 	@$(RUN) docs/language/pictures.py
 	@$(RUN) docs/language/mouths.py
 	@$(RUN) docs/film_pictures.py

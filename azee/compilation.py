@@ -202,7 +202,7 @@ def compile(  # noqa: A001 - azee.compile, as re.compile
     require_switch(precise, "precise")
     found = folders(libraries)
     body = rig if isinstance(rig, Rig) else load_rig(rig)
-    program = load(_source(text_or_path), found, recordings=recordings)
+    program = load(source_of(text_or_path), found, recordings=recordings)
     score = score_of(program, expression, utterance, dominant)
     return perform(
         score,
@@ -370,7 +370,11 @@ def _lacking(errors: Sequence[BindingError], rig: Rig, *, strict: bool) -> Diagn
     return Diagnostic(first.code, message, None, notes=written, severity=Severity.WARNING)
 
 
-def _source(text_or_path: str | Path | None) -> Source:
+def source_of(text_or_path: str | Path | None) -> Source:
+    """Return the text that `compile` is given, under the name by which it is reported.
+
+    Raises: AZeeError: there is no such file.
+    """
     from azee_grammar.files import TEXT_SUFFIXES, read_source
     from azee_grammar.source import Source
 

@@ -18,11 +18,11 @@ from azee.compilation import perform, score_of
 from azee.lang.program import load
 from azee.quality.likeness import Likeness
 from azee.quality.transitions import correlation
-from azee.score.score import Score
 from azee_grammar.files import read_source
+from azee_grammar.source import Source
 from azee_rig.load import load_rig
 from benchmarks.likeness_figures import FIGURES, Figure
-from benchmarks.penetration import scores
+from benchmarks.penetration import sources
 
 TEXTS = Path(__file__).parent / "texts"
 PAGE = Path(__file__).parents[1] / "docs" / "likeness.md"
@@ -63,18 +63,19 @@ class Case:
         }
 
 
-def texts() -> Iterator[tuple[str, Score]]:
+def texts() -> Iterator[tuple[str, Source]]:
     """Yield all that is measured, by name: examples, rules with a colon, texts of this folder."""
-    yield from scores([])
-    for source in sorted(TEXTS.glob("*.azee")):
-        yield source.stem, score_of(load(read_source(source)), None, None)
+    yield from sources()
+    for path in sorted(TEXTS.glob("*.azee")):
+        yield path.stem, read_source(path)
 
 
 def cases(names: Sequence[str] = ()) -> Iterator[Case]:
     """Measure all texts, or those that are named."""
     rig = load_rig()
-    for name, score in texts():
+    for name, source in texts():
         if not names or name in names:
+            score = score_of(load(source), None, None)
             yield Case((name,), perform(score, rig, fps=FPS).report.likeness)
 
 
@@ -208,11 +209,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("-o", "--output", type=Path, metavar="FILE.json", help="everything")
     parser.add_argument("--page", action="store_true", help=f"write the tables into {PAGE.name}")
     options = parser.parse_args(arguments)
+    if options.page and options.case:
+        parser.error("--page is of all cases: leave out --case")
     unknown = set(options.case) - {name for name, _ in texts()} if options.case else set()
     if unknown:
         parser.error(f"there is no example, rule or text called {', '.join(sorted(unknown))}")
-    if options.page and options.case:
-        parser.error("--page is of all cases: leave out --case")
     found = []
     for case in cases(options.case):
         found.append(case)

@@ -52,16 +52,21 @@ class Finding:
     """Constraints of the same moment that the report calls unmet."""
 
 
-def scores(names: list[str]) -> Iterator[tuple[str, Score]]:
+def sources(names: Sequence[str] = ()) -> Iterator[tuple[str, Source]]:
     """Yield the texts to measure, by name: all, or those that are named."""
-    for source in sorted(EXAMPLES.glob("*/*.azee")):
-        if not names or source.stem in names:
-            yield source.stem, score_of(load(read_source(source)), None, None)
+    for path in sorted(EXAMPLES.glob("*/*.azee")):
+        if not names or path.stem in names:
+            yield path.stem, read_source(path)
     for library in shipped_names():
         for rule in shipped_library(library).namespace.rules.values():
             if not names or rule.name in names:
-                text = Source(rule.name, example_text(rule))
-                yield f":{rule.name}", score_of(load(text), None, None)
+                yield f":{rule.name}", Source(rule.name, example_text(rule))
+
+
+def scores(names: Sequence[str]) -> Iterator[tuple[str, Score]]:
+    """Yield the scores of these texts."""
+    for name, source in sources(names):
+        yield name, score_of(load(source), None, None)
 
 
 def findings(sign: str, score: Score, rig: Rig) -> Iterator[Finding]:

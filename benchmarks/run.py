@@ -25,9 +25,13 @@ MODULES = {
     "threads": "benchmarks.threads",
     "memory": "benchmarks.memory",
     "continuity": "benchmarks.continuity",
+    "posing": "benchmarks.posing",
     "penetration": "benchmarks.penetration",
+    "spelled-pairs": "benchmarks.spelled_pairs",
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
+    "capture": "benchmarks.capture",
+    "studio": "benchmarks.studio",
     "solver": "benchmarks.solver_bench",
 }
 

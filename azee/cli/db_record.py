@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from azee.cli.text import Text, dominant_option, expression_option, library_opti
 from azee.compilation import perform
 
 if TYPE_CHECKING:
+    from azee.clip.clip import Clip
     from azee.compilation import Compilation, Hand
     from azee.motion.keys.rest import Rest
 
@@ -72,18 +74,35 @@ def record(
                 score, body, dominant=dominant, fps=fps, rest=rest, life=not no_life,
                 provenance=text.provenance,
             )  # fmt: skip
-        lead_s = made.report.lead_s
-        decay_s = made.clip.duration_s - lead_s - made.report.score_s
-        facts = SignFacts(
-            identity, timing_of(made.clip, lead_s, decay_s), "azee", tuple(tags), licence,
-            _provenance(text, made),
-        )  # fmt: skip
+        clip, attack_s, decay_s = _without_standing(made)
+        timing = timing_of(clip, attack_s, decay_s)
+        facts = SignFacts(identity, timing, "azee", tuple(tags), licence, _provenance(text, made))
         original = _source(text)
-        motion = Motion(packed(made.clip, body), original.encode(), f"{identity.name}.azee")
+        motion = Motion(packed(clip, body), original.encode(), f"{identity.name}.azee")
         database.add(facts, motion, StoredSkeleton.of(body))
     show([*text.warnings, *made.left_out, *made.unshown])
-    news(f"{identity}: {made.clip.duration_s:.2f} s, {len(made.clip.times)} frames", quiet=quiet)
+    news(f"{identity}: {clip.duration_s:.2f} s, {len(clip.times)} frames", quiet=quiet)
     return DONE
+
+
+def _without_standing(made: Compilation) -> tuple[Clip, float, float]:
+    """Return a clip from where the body leaves its rest until it is back; its attack and decay."""
+    from azee.clip.edit import shifted
+    from azee.motion.overlay.life import AFTER_S, BEFORE_S
+
+    clip, report = made.clip, made.report
+    first, last = float(clip.times[0]), float(clip.times[-1])
+    rows = (clip.times >= first + BEFORE_S) & (clip.times <= last - AFTER_S)
+    part = replace(
+        clip,
+        times=clip.times[rows],
+        coordinates=clip.coordinates[rows],
+        unit_weights=clip.unit_weights[rows],
+    )
+    zero_s = float(part.times[0])
+    attack_s = max(0.0, report.lead_s - zero_s)
+    decay_s = max(0.0, float(part.times[-1]) - report.lead_s - report.score_s)
+    return shifted(part, -zero_s), attack_s, decay_s
 
 
 def _source(text: Text) -> str:

@@ -16,6 +16,8 @@ from typing import NoReturn
 
 import click
 
+from azee.cli.blocks import blocks
+from azee.cli.capture import capture
 from azee.cli.check import check
 from azee.cli.clip import clip
 from azee.cli.compile import compile_
@@ -30,6 +32,7 @@ from azee.cli.lexicon import lexicon
 from azee.cli.lsp import lsp
 from azee.cli.manifest import manifest
 from azee.cli.play import play
+from azee.cli.pose import pose
 from azee.cli.render import render
 from azee.cli.repl import repl
 from azee.cli.retarget import retarget
@@ -54,7 +57,9 @@ def azee() -> None:
 azee.add_command(compile_)
 azee.add_command(check)
 azee.add_command(fmt)
+azee.add_command(blocks)
 azee.add_command(score)
+azee.add_command(pose)
 azee.add_command(render)
 azee.add_command(clip)
 azee.add_command(find)
@@ -68,6 +73,7 @@ azee.add_command(rules)
 azee.add_command(manifest)
 azee.add_command(rig)
 azee.add_command(retarget)
+azee.add_command(capture)
 azee.add_command(repl)
 azee.add_command(play)
 azee.add_command(spell)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import socket
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -12,7 +11,6 @@ from azee.cli.console import DONE, news
 from azee.cli.text import library_option
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
-LOOPBACK = "127.0.0.1"
 _EXTRA = ("starlette", "uvicorn", "websockets", "pygls", "lsprotocol")
 
 
@@ -50,6 +48,7 @@ def studio(
         from platformdirs import user_data_path
 
         from azee.studio.serving import history_path, serve
+        from azee.webserver.serving import LocalServer
     except ModuleNotFoundError as missing:
         if (missing.name or "").partition(".")[0] not in _EXTRA:
             raise
@@ -57,24 +56,19 @@ def studio(
         remedy = "install it with: pip install 'azee[studio]'"
         raise AZeeError(Diagnostic("not-installed", message, None, help=remedy)) from missing
     try:
-        listening = socket.create_server((LOOPBACK, port))
+        server = LocalServer.on(port)
     except OSError as error:
         message = f"port {port} is taken: `--port 0` takes one that is free"
         raise click.BadParameter(message, param_hint="'--port'") from error
+    news(f"the studio is at {server.url} (Ctrl-C ends it)")
+    if not no_browser:
+        import webbrowser
 
-    def announce(address: str) -> None:
-        news(f"the studio is at {address} (Ctrl-C ends it)")
-        if not no_browser:
-            import webbrowser
-
-            webbrowser.open(address)
-
+        webbrowser.open(server.url)
     path = kept or history_path(folder, user_data_path("azee"))
+    libraries = [library.resolve() for library in libraries]
     try:
-        serve(
-            folder, first, listening, libraries=[p.resolve() for p in libraries],
-            bodies=bodies, kept=path, announce=announce,
-        )  # fmt: skip
+        serve(server, folder, first, libraries=libraries, bodies=bodies, kept=path)
     except OSError as error:
         if error.filename is None:
             raise

@@ -85,7 +85,8 @@ class Shortcuts:
 
         Raises: AZeeError: all that is wrong with it.
         """
-        found, wrong = [], []
+        found: list[Shortcut] = []
+        wrong: list[Diagnostic] = []
         for number, line in enumerate(source.text.splitlines(), 1):
             if line.strip() and not line.lstrip().startswith("#"):
                 try:

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 FPS = 120.0
 """Clips are measured at one rate, so that the same movement has the same figures at any rate."""
+CHEST = "back_2"
 SIDES = ("L", "R")
 NOSE = "NO"
 

@@ -8,13 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.quality.kinematics import SIDES, Kinematics
+from azee.quality.kinematics import CHEST, SIDES, Kinematics
 from azee.quality.task_spans import TaskSpan
 from azee_solver.constraint import Transpath
 
 Array = NDArray[np.float64]
 
-CHEST = "back_2"
 PHASES = 65
 """Instants at which two performances of a way are compared."""
 LEAST_WAY_M = 0.02

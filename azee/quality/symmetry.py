@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.quality.kinematics import SIDES, Extreme, Kinematics
+from azee.motion.tasks.limbs import TRUNK
+from azee.quality.kinematics import CHEST, SIDES, Extreme, Kinematics
 from azee.quality.task_spans import TaskSpan
 from azee_rig.mirror import mirrored
 from azee_solver.constraint import Orient, Place
@@ -27,12 +28,14 @@ def elbow_asymmetry_cm(
 ) -> Extreme | None:
     """Return how far an elbow is from the mirror image of the other in symmetric signs, cm.
 
-    A moment is symmetric if places or orientations are asked of both arms and the mirror image of
-    the posture meets them as well as the posture itself. It is looked for in the middle of every
-    time in which the same tasks are held and none of them is a movement. The mirror is the plane
-    between left and right of the neutral posture. None if no moment is symmetric.
+    A moment is symmetric if places or orientations are asked of both arms, the mirror image of the
+    posture meets them as well as the posture itself, and nothing turns the trunk to a side. It is
+    looked for in the middle of every time in which the same tasks are held and none of them is a
+    movement. The mirror is the plane between left and right of the chest. None if no moment is
+    symmetric.
     """
     evaluator = Evaluator(k.rig, dominant)
+    chest = k.rotation(CHEST)
     held = [s for s in spans if isinstance(s.constraint, Place | Orient) and _arm(s)]
     edges = sorted({t for s in spans if _arm(s) for t in (s.start_s, s.end_s)})
     best: Extreme | None = None
@@ -43,9 +46,10 @@ def elbow_asymmetry_cm(
         if moving or {side for s in now for side in _arm(s)} != {"L", "R"}:
             continue
         n = int(np.abs(k.times_s - middle).argmin())
-        if not _symmetric(evaluator, now, k.q[n]):
+        turned = any(s.limb == TRUNK and s.start_s <= middle <= s.end_s for s in spans)
+        if (turned and _to_a_side(chest[n])) or not _symmetric(evaluator, now, k.q[n]):
             continue
-        left, right = (k.joint(f"f_arm_{side}")[n] for side in SIDES)
+        left, right = ((k.joint(f"f_arm_{s}")[n] - k.joint(CHEST)[n]) @ chest[n] for s in SIDES)
         apart = 100.0 * k.scale * float(np.linalg.norm(left * [-1.0, 1.0, 1.0] - right))
         if best is None or apart > best.value:
             best = Extreme(apart, "f_arm", float(k.times_s[n]))
@@ -55,6 +59,17 @@ def elbow_asymmetry_cm(
 def _arm(span: TaskSpan) -> str:
     """Sides of the arms that a task asks something of."""
     return "".join(side for side in SIDES if span.concerns(f"arm_{side}"))
+
+
+def _to_a_side(turned: Array) -> bool:
+    """Whether a turn (3, 3) is farther from its mirror image than `ALIKE`.
+
+    The mirror image of R is M R M with M = diag(−1, 1, 1); the angle between two rotations is
+    arccos((tr(AᵀB) − 1) / 2).
+    """
+    mirror = np.diag([-1.0, 1.0, 1.0])
+    cosine = (np.trace(turned.T @ mirror @ turned @ mirror) - 1.0) / 2.0
+    return bool(np.arccos(np.clip(cosine, -1.0, 1.0)) > ALIKE["rad"])
 
 
 def _symmetric(evaluator: Evaluator, spans: Sequence[TaskSpan], q: Array) -> bool:

@@ -1,6 +1,6 @@
 """The studio as an application: the page, its files, bodies, pictures, exports, the live socket.
 
-docs/studio-protocol.md lists all addresses. `Guard` stands before all of it.
+docs/studio-protocol.md lists all addresses. `azee.webserver.guard` stands before all of it.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import time
 import uuid
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from contextlib import asynccontextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -21,19 +22,21 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
-from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
+from azee.blocks.document import Document
+from azee.blocks.edits import edit_from_json
+from azee.blocks.view import as_json
 from azee.formats import FILM_SUFFIXES, WRITERS
 from azee.studio.folder import FILM_SUFFIXES as SHOWN_FILMS
 from azee.studio.folder import LARGEST_TEXT, ConflictError, RefusedError
-from azee.studio.guard import Guard
 from azee.studio.live import Live
 from azee.studio.palette import palette
 from azee.studio.workspace import Workspace
+from azee.web.bundle import DIST
+from azee_grammar.diagnostic import AZeeError
+from azee_grammar.render import to_json
 
-PAGES = Path(__file__).parents[1] / "web" / "dist"
-"""The built page; `azee/web` has its sources."""
 _KEPT = {"Cache-Control": "max-age=86400, immutable"}
 _FRESH = {"Cache-Control": "no-store"}
 _MEDIA = {".mp4": "video/mp4", ".webm": "video/webm", ".ogv": "video/ogg"} | {
@@ -42,8 +45,8 @@ _MEDIA = {".mp4": "video/mp4", ".webm": "video/webm", ".ogv": "video/ogg"} | {
 Handler = Callable[[Request], Awaitable[Response]]
 
 
-def studio_app(workspace: Workspace, token: str, port: int) -> ASGIApp:
-    """Return the application for a server that listens on `port` of this machine."""
+def studio_app(workspace: Workspace) -> Starlette:
+    """Return the application; it starts the compiler, and closes the workspace at its end."""
     addresses = _Addresses(workspace)
 
     async def live(socket: WebSocket) -> None:
@@ -65,18 +68,19 @@ def studio_app(workspace: Workspace, token: str, port: int) -> ASGIApp:
         Route("/api/versions", addresses.versions),
         Route("/api/version", addresses.version),
         Route("/api/rules", addresses.rules, methods=["POST"]),
+        Route("/api/blocks", addresses.blocks, methods=["POST"]),
+        Route("/api/edit", addresses.edit, methods=["POST"]),
         Route("/api/picture", addresses.picture, methods=["POST"]),
         Route("/api/export", addresses.export, methods=["POST"]),
         Route("/body/{name}.glb", addresses.body),
         Route("/film", addresses.film),
         WebSocketRoute("/live", live),
-        Mount("/", StaticFiles(directory=PAGES, check_dir=False)),
+        Mount("/", StaticFiles(directory=DIST)),
     ]
     handlers: Mapping[Any, Any] = {
         RefusedError: _refused, HTTPException: _problem, ClientDisconnect: _gone
     }  # fmt: skip
-    app = Starlette(routes=routes, exception_handlers=handlers, lifespan=lifespan)
-    return Guard(app, token, port)
+    return Starlette(routes=routes, exception_handlers=handlers, lifespan=lifespan)
 
 
 class _Addresses:
@@ -86,10 +90,7 @@ class _Addresses:
 
     async def page(self, request: Request) -> Response:
         """Send the page."""
-        path = PAGES / "studio.html"
-        if not path.is_file():
-            raise RefusedError(404, "the page is not built: `npm run build` in azee/web builds it")
-        return FileResponse(path, headers=_FRESH)
+        return FileResponse(DIST / "studio.html", headers=_FRESH)
 
     async def files(self, request: Request) -> Response:
         """List texts, films, bodies and formats."""
@@ -171,12 +172,31 @@ class _Addresses:
             raise RefusedError(404, "there is no such version")
         return JSONResponse({"text": text}, headers=_FRESH)
 
+    async def blocks(self, request: Request) -> Response:
+        """Show a text as nested blocks."""
+        name, text = _text_of(await _json(request))
+        found = await self._space.languages.run(lambda: as_json(Document.of(text, name)))
+        return JSONResponse(found, headers=_FRESH)
+
+    async def edit(self, request: Request) -> Response:
+        """Edit a text by its blocks: return what becomes of it, as one change."""
+        asked = await _json(request)
+        name, text = _text_of(asked)
+        try:
+            edit = edit_from_json(asked.get("edit"))
+            work = partial(Document.of(text, name).apply, edit)
+            edited = await self._space.languages.run(work)
+        except ValueError as error:
+            raise RefusedError(400, str(error)) from error
+        except AZeeError as error:
+            found = [to_json(d) for d in error.diagnostics]
+            return JSONResponse({"diagnostics": found}, 422, headers=_FRESH)
+        change = {**edited.change.as_json(text), "gone": [*edited.gone]}
+        return JSONResponse(change, headers=_FRESH)
+
     async def rules(self, request: Request) -> Response:
         """List the rules that a text may use."""
-        asked = await _json(request)
-        name, text = asked.get("file"), asked.get("text")
-        if not (isinstance(name, str) and isinstance(text, str)) or len(text) > LARGEST_TEXT:
-            raise RefusedError(400, "`file` or `text` is missing")
+        name, text = _text_of(await _json(request))
         path, libraries = self._space.folder.path(name), self._space.libraries
         found = await self._space.languages.run(lambda: palette(text, path, libraries))
         return JSONResponse({"rules": found}, headers=_FRESH)
@@ -239,6 +259,14 @@ def _named(request: Request) -> str:
     if name is None:
         raise RefusedError(400, "`name` is missing")
     return name
+
+
+def _text_of(asked: Mapping[str, Any]) -> tuple[str, str]:
+    """Return file and text of a request. Raises: RefusedError."""
+    name, text = asked.get("file"), asked.get("text")
+    if not (isinstance(name, str) and isinstance(text, str)) or len(text) > LARGEST_TEXT:
+        raise RefusedError(400, "`file` or `text` is missing")
+    return name, text
 
 
 async def _json(request: Request) -> Mapping[str, Any]:

@@ -21,7 +21,7 @@ from typing import Any
 from azee.studio.folder import RefusedError
 from azee.studio.framing import LENGTHS, Header, packed, unpacked
 
-LIMITS_S = {"compile": 60.0, "export": 600.0, "picture": 60.0, "body": 60.0, "test-hang": 0.5}
+LIMITS_S = {"compile": 60.0, "export": 600.0, "picture": 60.0, "body": 60.0, "hang": 0.5}
 """How long a job may take before the worker is killed."""
 START_S = 120.0
 """How long a worker may take to start: the first time on a machine it compiles the solver."""
@@ -153,7 +153,7 @@ class Compiler:
         await process.wait()
 
     def _answered(self, header: Header, payload: bytes) -> None:
-        number = header.get("job")
+        number = header.pop("job", None)
         if header["kind"] == "ready":
             self._limit(None)
             return
@@ -168,7 +168,8 @@ class Compiler:
                 self._limit(None)
             self._pending.pop(number, None)
         if pending:
-            pending.deliver({k: v for k, v in header.items() if k != "job"}, payload)
+            number = pending.message.get("what", {}).get("number")
+            pending.deliver({"number": number, **header}, payload)
 
     def _limit(self, seconds: float | None) -> None:
         """Kill the worker if nothing changes within some seconds."""

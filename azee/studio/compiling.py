@@ -15,11 +15,13 @@ import numpy as np
 
 from azee.studio.framing import Header
 from azee.studio.job import Job
+from azee.studio.marks import marks
 from azee.studio.postures import Postures
 from azee.studio.score_rows import score_rows
 from azee_grammar.diagnostic import AZeeError, Diagnostic, Severity
 from azee_grammar.render import to_json
 from azee_grammar.source import Source
+from azee_solver.geometry import Side
 
 if TYPE_CHECKING:
     from azee.compilation import Compilation
@@ -122,10 +124,8 @@ def performed(
     from azee.compilation import perform
     from azee.lang.provenance import provenance_of, written
     from azee_rig.load import load_rig
-    from azee_solver.geometry import Side
 
     rig = load_rig(job.rig)
-    side = Side.RIGHT if job.dominant == "right" else Side.LEFT
     return perform(
         score,
         rig,
@@ -136,8 +136,13 @@ def performed(
         precise=job.precise,
         tempo=job.tempo,
         provenance=provenance_of(written(program, job.expression, None)),
-        postures=postures.solver(rig, side, job.precise, check),
+        postures=postures.solver(rig, side_of(job), job.precise, check),
     )
+
+
+def side_of(job: Job) -> Side:
+    """Return the side of the signer's strong hand."""
+    return Side.RIGHT if job.dominant == "right" else Side.LEFT
 
 
 def _clip(job: Job, made: Compilation, name: str, watch: Watch) -> Answer:
@@ -146,7 +151,6 @@ def _clip(job: Job, made: Compilation, name: str, watch: Watch) -> Answer:
     head: dict[str, Any] = {
         "kind": "clip",
         "number": job.number,
-        "rig": job.rig,
         "blocks": score_rows(made.score, name),
         "lead_s": made.animation.lead_s,
         "key_times": [round(t, 4) for t in made.animation.key_times],
@@ -167,10 +171,12 @@ def _report(job: Job, made: Compilation) -> Header:
     rows = [
         {name: row[name] for name in fields} for row in (c.as_json() for c in report.constraints)
     ]
+    clip, lead_s = made.clip, made.animation.lead_s
     return {
         "kind": "report",
         "number": job.number,
         "constraints": rows,
+        "marks": marks(made.score, clip, made.rig, side_of(job), lead_s),
         "stretched": [s.as_json() for s in report.stretched],
         "limits": {"max_excess_rad": report.max_excess_rad, "joint": report.excess_joint},
         "provenance": made.provenance.as_json() if made.provenance else None,
@@ -182,9 +188,13 @@ def still(
     root: Path,
     libraries: Sequence[Path],
     size: tuple[int, int],
+    check: Callable[[], None],
     postures: Postures,
 ) -> bytes:
-    """Return a picture (PNG) of the most telling posture of a job. Raises: AZeeError."""
+    """Return a picture (PNG) of a posture in the middle of a job.
+
+    Raises: AZeeError: the text has mistakes. And what `check` raises.
+    """
     import io
 
     from azee.export.pictures.picture import picture
@@ -192,7 +202,7 @@ def still(
     found, score, program = evaluated(job, root, libraries)
     if score is None:
         raise AZeeError(*found)
-    made = performed(job, score, program, lambda: None, postures)
+    made = performed(job, score, program, check, postures)
     clip = made.clip
     blocks = made.animation.key_times
     inside = [t for t in blocks if t >= made.animation.lead_s] or [clip.duration_s / 2]

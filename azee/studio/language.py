@@ -59,8 +59,8 @@ class Language:
 
     def __init__(self, languages: Languages, send: Callable[[str], None]) -> None:
         self._languages = languages
-        self._page = asyncio.get_running_loop()
         self._send = send
+        self._writer = _Writer(asyncio.get_running_loop(), send)
         self._server: Server | None = None
 
     def receive(self, message: Mapping[str, Any]) -> None:
@@ -78,15 +78,13 @@ class Language:
         self._languages.loop.call_soon_threadsafe(self._end)
 
     def _end(self) -> None:
-        if self._server is not None:
-            self._server.protocol.set_writer(_Nowhere(), include_headers=False)
-            self._server.shutdown()
-            self._server = None
+        self._writer.close()
+        self._server = None
 
     def _handle(self, message: Mapping[str, Any]) -> None:
         if self._server is None:
             self._server = make_server(self._languages.libraries)
-            self._server.protocol.set_writer(self, include_headers=False)  # type: ignore[arg-type]
+            self._server.protocol.set_writer(self._writer, include_headers=False)
         protocol = self._server.protocol
         try:
             text = json.dumps(message)
@@ -94,14 +92,21 @@ class Language:
         except Exception:
             logging.getLogger(__name__).debug("a message was not understood", exc_info=True)
 
-    def write(self, data: bytes) -> None:
-        """Hand a message of the server on to the page; pygls calls this."""
-        self._page.call_soon_threadsafe(self._send, data.decode("utf-8", "surrogatepass"))
 
+class _Writer:
+    """Hands what a language server says on to the page, until the page is gone; pygls uses it."""
 
-class _Nowhere:
+    def __init__(self, page: asyncio.AbstractEventLoop, send: Callable[[str], None]) -> None:
+        self._page, self._send, self._open = page, send, True
+
     def write(self, data: bytes) -> None:
-        """Drop it."""
+        """Send a message."""
+        if self._open:
+            self._page.call_soon_threadsafe(self._send, data.decode("utf-8", "surrogatepass"))
+
+    def close(self) -> None:
+        """Drop what comes from now on."""
+        self._open = False
 
 
 def _outside(value: object, folder: Folder, depth: int = 0) -> Iterator[str]:

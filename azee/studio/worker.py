@@ -7,6 +7,7 @@ compiled is given up when a newer one of the same page comes. It ends when its i
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 import threading
@@ -56,10 +57,20 @@ class Inbox:
             gone, self.given_up = self.given_up, []
             return message, gone
 
+    def put_back(self, message: Header) -> None:
+        """Take back a job that gave way to a text; it is the next after the texts."""
+        with self._changed:
+            self._others.insert(0, message)
+
     def newer(self, client: int) -> bool:
         """Whether a newer text of a page waits."""
         with self._changed:
             return client in self._texts
+
+    def has_text(self) -> bool:
+        """Whether any text waits."""
+        with self._changed:
+            return bool(self._texts)
 
 
 class Worker:
@@ -88,7 +99,10 @@ class Worker:
             try:
                 self._do(message)
             except SupersededError:
-                self._end(message, {"kind": "superseded"})
+                if message["do"] == "compile":
+                    self._end(message, {"kind": "superseded"})
+                else:
+                    self.inbox.put_back(message)
             except AZeeError as error:
                 found = [to_json(d) for d in error.diagnostics]
                 self._end(message, {"kind": "refused", "diagnostics": found})
@@ -96,19 +110,18 @@ class Worker:
                 self._end(message, {"kind": "done"})
 
     def _do(self, message: Header) -> None:
-        match message["do"]:
-            case "compile":
-                self._compile(message)
-            case "export":
-                self._export(message)
-            case "picture":
-                job = Job(**message["what"])
-                data = still(job, self._root, self._libraries, _PICTURE, self._postures)
-                self._tell({"kind": "picture", "job": message["job"]}, data)
-            case "body":
-                self._body(message)
-            case "test-hang":  # what tests ask for, and no page can
-                threading.Event().wait()
+        work = {
+            "compile": self._compile,
+            "export": self._export,
+            "picture": self._picture,
+            "body": self._body,
+            "hang": self._hang,
+        }
+        work[message["do"]](message)
+
+    def _hang(self, message: Header) -> None:
+        """Do nothing for ever: what tests of the server ask for, and no page can."""
+        threading.Event().wait()
 
     def _compile(self, message: Header) -> None:
         def check() -> None:
@@ -119,6 +132,17 @@ class Worker:
         answers = compiled(job, self._root, self._libraries, check, self._postures)
         for header, payload in answers:
             self._tell({**header, "job": message["job"]}, payload)
+
+    def _picture(self, message: Header) -> None:
+        """Draw a still; nobody waits for it as for the text that is typed, which goes first."""
+
+        def check() -> None:
+            if self.inbox.has_text():
+                raise SupersededError
+
+        job = Job(**message["what"])
+        data = still(job, self._root, self._libraries, _PICTURE, check, self._postures)
+        self._tell({"kind": "picture", "job": message["job"]}, data)
 
     def _export(self, message: Header) -> None:
         job, path = Job(**message["what"]), Path(message["path"])
@@ -138,10 +162,11 @@ class Worker:
         job = Job(0, "warm.azee", "key 1\n    place @I_TIP(s) @CH\n")
         for _ in compiled(job, self._root, self._libraries, lambda: None, self._postures):
             pass
+        gc.freeze()
+        gc.set_threshold(50_000, 20, 20)
 
     def _end(self, message: Header, answer: dict[str, Any]) -> None:
-        number = message.get("what", {}).get("number")
-        self._tell({**answer, "job": message["job"], "number": number, "last": True})
+        self._tell({**answer, "job": message["job"], "last": True})
 
     def _tell(self, header: Header, payload: bytes = b"") -> None:
         self._out.write(packed(header, payload))

@@ -19,6 +19,7 @@ export default defineConfig({
     rolldownOptions: {
       input: {
         player: 'player.html',
+        studio: 'studio.html',
         'azee-player': 'src/player/element.ts',
       },
       output: {

@@ -56,5 +56,6 @@ class LocalServer:
             limit_concurrency=AT_ONCE,
             timeout_graceful_shutdown=int(GRACE_S),
             ws_max_size=largest_body,
+            ws_per_message_deflate=False,  # nothing leaves the machine
         )
         uvicorn.Server(config).run(sockets=[self.socket])

@@ -7,9 +7,10 @@ beyond the first are tested, for the first are webbed to it and to each other.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,6 +39,8 @@ CONTACT_M, PALM_CONTACT_M = 0.02, 0.055
 about one on a palm, which is hollow: its edges stand out around what lies in it."""
 OWN_WEIGHT = 0.9
 """A vertex belongs to a limb if so much of its skin weight does."""
+DIRECTIONS = np.array([d for d in product((-1, 0, 1), repeat=3) if d > (0, 0, 0)], dtype=float).T
+"""Axes and diagonals of a cube, (3, 13): what is inside a part lies between its ends along all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,31 +80,44 @@ class _Limb:
 
 @dataclass(frozen=True, eq=False)
 class _Regions:
-    """Limbs that are tested, and triangles (F, 3) that bound the parts, of those that have any."""
+    """Limbs that are tested, and triangles (F, 3) that bound the parts, of those that have any.
+
+    corners: the vertices of these triangles, (m,).
+    """
 
     limbs: Mapping[str, _Limb]
     surfaces: Mapping[str, NDArray[np.int64]]
+    corners: Mapping[str, NDArray[np.int64]]
 
 
 def mesh_penetration(
-    rig: Rig, q: Array, contacts: Sequence[Contact] = ()
+    rig: Rig, q: Array, contacts: Sequence[Contact] = (), parts: Collection[str] | None = None
 ) -> tuple[Penetration, ...]:
     """Return where arms and digits enter trunk, head, the other arm or each other, deepest first.
 
     Args: q: (V,) coordinates of one posture. contacts: where touching is meant.
+        parts: those that matter, such as `thumb_R`; all by default.
     """
     regions = _regions(rig)
     vertices = rig.skin(rig.pose(q))
-    corners = {name: vertices[triangles] for name, triangles in regions.surfaces.items()}
-    boxes = {name: (c.min(axis=(0, 1)), c.max(axis=(0, 1))) for name, c in corners.items()}
+    surfaces = {
+        name: vertices[triangles]
+        for name, triangles in regions.surfaces.items()
+        if parts is None or name in parts
+    }
+    along = vertices @ DIRECTIONS
+    slabs = {n: (along[c].min(axis=0), along[c].max(axis=0)) for n, c in regions.corners.items()}
     found = []
     for name, limb in regions.limbs.items():
-        for body, surface in corners.items():
+        if parts is not None and name not in parts:
+            continue
+        for body, surface in surfaces.items():
             if body == name or (name.startswith("arm_") and body.endswith(f"_{limb.side}")):
                 continue
-            points = vertices[limb.beyond_web if body.endswith(f"_{limb.side}") else limb.all]
-            low, high = boxes[body]
-            points = points[np.all((points > low) & (points < high), axis=1)]
+            tested = limb.beyond_web if body.endswith(f"_{limb.side}") else limb.all
+            low, high = slabs[body]
+            between = np.all((along[tested] > low) & (along[tested] < high), axis=1)
+            points = vertices[tested[between]]
             for contact in contacts:
                 points = points[np.linalg.norm(points - contact.point, axis=1) > contact.radius_m]
             inside = points[winding_numbers(points, surface) > 0.5]
@@ -146,7 +162,7 @@ def _regions(rig: Rig) -> _Regions:
         far = np.array([n >= 0 and structure.is_above(second, n) for n in carriers])
         beyond = np.sum(mesh.weights * far[mesh.joints], axis=1) > OWN_WEIGHT
         limbs[name] = _Limb(side, np.flatnonzero(own), np.flatnonzero(own & beyond))
-    return _Regions(limbs, surfaces)
+    return _Regions(limbs, surfaces, {name: np.unique(t) for name, t in surfaces.items()})
 
 
 def _carriers(rig: Rig) -> list[int]:

@@ -14,13 +14,17 @@ from azee_rig.pointers import WORDS, carray, reals
 def wind(words):
     """Sum of solid angles over 4π (Van Oosterom and Strackee 1983).
 
+    Half the solid angle of a triangle is the angle of a complex number, spread + i volume. Their
+    product has the sum of the angles, but for whole turns, which are counted: a sum of two angles
+    of one sign goes beyond ±π where the imaginary part changes its sign.
+
     Words: n, F, points (n, 3), triangles (F, 3, 3), and the result (n,).
     """
     w = carray(words, (5,))
     points, triangles = reals(w[2], (w[0], 3)), reals(w[3], (w[1], 3, 3))
     out = reals(w[4], (w[0],))
     for n in range(points.shape[0]):
-        total = 0.0
+        re, im, turns = 1.0, 0.0, 0.0
         for t in range(triangles.shape[0]):
             ax = triangles[t, 0, 0] - points[n, 0]
             ay = triangles[t, 0, 1] - points[n, 1]
@@ -41,8 +45,18 @@ def wind(words):
                 + (bx * cx + by * cy + bz * cz) * a
                 + (cx * ax + cy * ay + cz * az) * b
             )
-            total += math.atan2(volume, spread)
-        out[n] = total / (2.0 * math.pi)
+            if volume == 0.0 and spread == 0.0:
+                continue  # the point is a corner
+            before = im
+            re, im = re * spread - im * volume, re * volume + im * spread
+            if before >= 0.0 and volume >= 0.0 and im < 0.0:
+                turns += 1.0
+            elif before < 0.0 and volume < 0.0 and im >= 0.0:
+                turns -= 1.0
+            if t % 8 == 7:
+                length = abs(re) + abs(im)
+                re, im = re / length, im / length
+        out[n] = math.atan2(im, re) / (2.0 * math.pi) + turns
 
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")

@@ -16,6 +16,7 @@ from azee.cli.profile import Profile
 TOUCH = "key .5 (place @I_TIP(s) @CH)"
 
 
+@pytest.mark.slow
 def test_the_stages_of_a_process_are_its_whole_time(python: Python) -> None:
     began = time.perf_counter()
     done = python(

@@ -12,6 +12,7 @@ import pytest
 from any_scores import SCORES
 from eaf_rules import check
 from hypothesis import given, settings
+from laws import examples
 
 from azee.cli.main import run
 from azee.export.formats.eaf import write_eaf
@@ -99,7 +100,7 @@ def test_tracks_are_tiers_by_part_of_the_body(score: Group, tmp_path: Path) -> N
 
 
 @given(SCORES)
-@settings(max_examples=40)
+@settings(max_examples=examples(0.4))
 def test_whatever_the_score_the_file_is_valid_and_no_block_is_lost(score: Score) -> None:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "a.eaf"

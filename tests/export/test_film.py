@@ -75,7 +75,7 @@ def is_skin(pixel: Pixels) -> bool:
     return r > g > b and r > b + 30
 
 
-@pytest.mark.parametrize("suffix", [".mp4", ".webm"])
+@pytest.mark.parametrize("suffix", [".mp4", pytest.param(".webm", marks=pytest.mark.slow)])
 def test_a_film_has_its_frames_its_length_its_size_and_the_hand_where_it_is(
     waving: Clip, signer: Rig, tmp_path: Path, suffix: str
 ) -> None:
@@ -247,6 +247,7 @@ def test_what_cannot_be_drawn_is_said_in_one_message(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["w.npz"]
 
 
+@pytest.mark.slow
 def test_clips_are_worked_on_from_the_command_line(
     waving: Clip,
     signer: Rig,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from any_programs import programs
 from evaluations import NAME, program
-from hypothesis import given, settings
+from hypothesis import given
 
 from azee.lang.machine import Limits
 from azee_grammar.diagnostic import AZeeError
@@ -13,7 +13,6 @@ from azee_grammar.diagnostic import AZeeError
 LIMITS = Limits(depth=100, steps=5000, size=2000)
 
 
-@settings(max_examples=100)
 @given(programs)
 def test_any_program_evaluates_or_says_what_is_wrong(text: str) -> None:
     loaded = program(text, limits=LIMITS)

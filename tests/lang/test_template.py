@@ -9,6 +9,7 @@ import pytest
 from any_programs import programs
 from evaluations import place, program
 from hypothesis import given, settings
+from laws import examples
 
 from azee.lang.template import Template
 from azee_grammar.diagnostic import AZeeError
@@ -212,7 +213,7 @@ def test_a_template_is_one_expression(text: str) -> None:
         Template.read(text)
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(0.5))
 @given(programs)
 def test_every_expression_matches_itself_however_it_is_laid_out(text: str) -> None:
     loaded, again = program(text), program(format_file(Source("a", text), published=True))

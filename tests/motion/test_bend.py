@@ -9,6 +9,7 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from laws import examples
 
 from azee.motion.timing.bend import STEP_S, Bend, bend_for
 from azee.motion.timing.way import Way
@@ -82,7 +83,7 @@ def test_what_is_fixed_leaves_the_stretching_to_the_rest() -> None:
     assert not bend_for([way(F(0), F(1), F(2))], [Interval(F(0), F(1))]).extra_s
 
 
-@settings(max_examples=150)
+@settings(max_examples=examples(1.5))
 @given(st.lists(ways, max_size=6), apart())
 def test_every_way_has_its_time_and_what_is_fixed_keeps_its_own(
     asked: Sequence[Way], fixed: Sequence[Interval]
@@ -114,7 +115,7 @@ def _joined(fixed: Sequence[Interval]) -> list[Interval]:
     return out
 
 
-@settings(max_examples=150)
+@settings(max_examples=examples(1.5))
 @given(trees(), st.lists(ways, min_size=1, max_size=4))
 def test_order_and_coincidences_stay_on_all_levels(score: Score, asked: Sequence[Way]) -> None:
     bend = bend_for(asked)
@@ -125,7 +126,7 @@ def test_order_and_coincidences_stay_on_all_levels(score: Score, asked: Sequence
     assert bent.duration == bend(score.duration)
 
 
-@settings(max_examples=150)
+@settings(max_examples=examples(1.5))
 @given(trees(), st.lists(ways, min_size=1, max_size=4), st.integers(0, 2))
 def test_what_keeps_its_clock_begins_on_time_and_keeps_its_times(
     score: Score, asked: Sequence[Way], name: int

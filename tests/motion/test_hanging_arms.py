@@ -47,10 +47,13 @@ def test_a_raised_arm_stays_where_it_is(signer: Rig) -> None:
     assert abs(found[0, signer.coordinates.index["arm_L.abduction"]]) < 0.01
 
 
-@pytest.mark.parametrize("body", shipped_rigs())
+@pytest.mark.parametrize(
+    "body",
+    ["signer", *(pytest.param(b, marks=pytest.mark.slow) for b in shipped_rigs() if b != "signer")],
+)
 @pytest.mark.parametrize("text", [":about-ref(:hier, ^Lssp)", ":about-ref(:Irak, ^Rssp)"])
 def test_no_hand_enters_the_hip_towards_which_the_trunk_leans(text: str, body: str) -> None:
     report = perform(evaluate_expression(text).score, load_rig(body)).report
     assert [c.subject for c in report.constraints if c.missed] == []
     deep = [p for p in report.clip_penetration if not p.intended and p.depth_m > 3 * MILLIMETRE]
-    assert [p for p in deep if p.on == "skin"] == []
+    assert deep == []

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from test_matches import SOURCES, UNIONS, named_members
+from sources import MODULES, ROOT, tree
+from test_matches import named_members, unions
 
 from azee.clip.clip import Clip
 from azee.formats import WRITERS
@@ -20,7 +21,6 @@ from azee_rig.rig import Rig
 from azee_solver import geometry
 from azee_solver.geometry import NamedPoint, SigningSpace, Vec, VTranslate
 
-ROOT = Path(__file__).parents[2]
 TEXT = (ROOT / "docs" / "changing-azee.md").read_text(encoding="utf-8")
 NEW = {"azee/export/formats/clip_csv.py", "tests/export/test_clip_csv.py"}
 """Files of the examples, which do not exist."""
@@ -45,7 +45,12 @@ def test_every_test_of_the_page_exists() -> None:
 
 def test_the_page_names_every_file_that_matches_over_points() -> None:
     (listed,) = re.findall(r"<!-- matches over Point -->\n(.*?)<!-- end -->", TEXT, re.S)
-    matching = {n for n, tree in SOURCES.items() if named_members(tree) & UNIONS["Point"]}
+    points = unions()["Point"]
+    matching = {
+        path.relative_to(ROOT).as_posix()
+        for path in MODULES.values()
+        if named_members(tree(path)) & points
+    }
     assert {*re.findall(r"- `([\w./]+)`", listed)} == matching
 
 

@@ -303,3 +303,22 @@ def test_a_sign_that_its_mirror_image_does_not_meet_is_not_symmetric(signer: Rig
     found = elbow_asymmetry_cm(level, asked)
     assert found is not None
     assert found.value == pytest.approx(0.0, abs=0.05)
+
+
+def test_a_trunk_that_leans_takes_both_elbows_along(signer: Rig) -> None:
+    q = {
+        f"{bone}_{side}.{movement}": still(0.0)
+        for side in "LR"
+        for bone, movement in (("palm", "flexion"), ("palm", "deviation"), ("arm", "flexion"))
+    }
+    q |= {f"arm_{side}.abduction": still(30.0) for side in "LR"}
+    leaning = drawn(signer, 2.0, q | {"back_1.axial": still(12.0), "back_1.flexion": still(8.0)})
+    both = [
+        span(0.5, 1.5, limb="palm_L", limbs=ARM_L, constraint=forearm_level(Side.LEFT)),
+        span(0.5, 1.5, limb="palm_R", limbs=ARM_R, constraint=forearm_level(Side.RIGHT)),
+    ]
+    found = elbow_asymmetry_cm(leaning, both)
+    assert found is not None
+    assert found.value == pytest.approx(0.0, abs=0.05)
+    shifted = span(0.0, 2.0, limb="trunk", constraint=LEVEL)
+    assert elbow_asymmetry_cm(leaning, [*both, shifted]) is None

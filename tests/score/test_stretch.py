@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 from hypothesis import assume, given, settings
+from laws import examples
 from score_builders import blank, part, scores, seconds, times
 
 from azee.score.error import LayoutError
@@ -80,7 +81,7 @@ def test_stretching_to_its_own_length_changes_nothing(score: Score) -> None:
     assert stretched(score, score.duration) == score
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(0.6))
 @given(scores, seconds)
 def test_the_result_has_the_length_that_was_asked_for(score: Score, duration: Fraction) -> None:
     longer = _try(score, duration)
@@ -89,7 +90,7 @@ def test_the_result_has_the_length_that_was_asked_for(score: Score, duration: Fr
         assert 0 <= leaf.interval.start <= leaf.interval.end <= duration
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(0.6))
 @given(scores, seconds)
 def test_fixed_leaves_keep_their_length(score: Score, duration: Fraction) -> None:
     longer = _try(score, duration)
@@ -99,14 +100,14 @@ def test_fixed_leaves_keep_their_length(score: Score, duration: Fraction) -> Non
             assert after.interval.duration == before.interval.duration
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(0.6))
 @given(scores, seconds)
 def test_there_and_back_is_where_it_was(score: Score, duration: Fraction) -> None:
     assume(duration > 0)
     assert _try(_try(score, duration), score.duration) == score
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(0.6))
 @given(scores, seconds)
 def test_what_coincided_still_does(score: Score, duration: Fraction) -> None:
     assume(score.duration > 0)

@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from laws import examples
 from score_builders import blank, offsets, part, scores, seconds, times
 
 from azee.score.error import LayoutError
@@ -187,7 +188,7 @@ def test_a_hold_in_a_sequence_has_nothing_to_hold() -> None:
 # Laws -----------------------------------------------------------------------------------------
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(0.5))
 @given(scores, scores, offsets)
 def test_moving_zero_moves_nothing(a: Score, b: Score, offset: Fraction) -> None:
     one = synchronised([part("A", a), part("B", b, "start", f"A:start:{float(offset)}")])
@@ -196,7 +197,7 @@ def test_moving_zero_moves_nothing(a: Score, b: Score, offset: Fraction) -> None
     assert one.duration == other.duration
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(0.5))
 @given(st.lists(scores, max_size=4), seconds)
 def test_a_sequence_is_as_long_as_its_parts_and_gaps(parts: list[Score], gap: Fraction) -> None:
     group = in_sequence(parts, gap)
@@ -204,14 +205,14 @@ def test_a_sequence_is_as_long_as_its_parts_and_gaps(parts: list[Score], gap: Fr
     assert group.duration == sum((p.duration for p in parts), Fraction(0)) + gaps
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(0.5))
 @given(scores)
 def test_every_leaf_lies_within_its_score(score: Score) -> None:
     for leaf in leaves(score):
         assert 0 <= leaf.interval.start <= leaf.interval.end <= score.duration
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(0.5))
 @given(scores, st.permutations([1, 2, 3]))
 def test_the_order_of_writing_does_not_matter(score: Score, order: list[int]) -> None:
     others = [

@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 import random
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
+from contextlib import closing, suppress
 from pathlib import Path
 
 import numpy as np
@@ -35,9 +37,28 @@ with SignDatabase.open(sys.argv[1]) as signs:
         seen = len(found)
         for sign in found[-2:]:
             signs.motion(sign)
-        time.sleep(0.02)
+        time.sleep(0.2)
 print(slowest, seen)
 """
+IMPORT = """
+import os, sys
+from azee.cli.main import run
+place, warm, *folders = sys.argv[1:]
+assert run(["db", "create", "--db", warm, "--quiet"]) == 0
+assert run(["db", "add", folders[0] + "/S0000.bvh", "--db", warm, "--quiet"]) == 0
+print("ready", flush=True)
+for line in sys.stdin:
+    children = []
+    for folder in folders:
+        child = os.fork()
+        if not child:
+            os._exit(run(["db", "add", folder, "--db", place, "--quiet"]))
+        children.append(child)
+    print(*children, flush=True)
+    codes = [os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children]
+    print(*codes, flush=True)
+"""
+"""Starts imports, one a folder, for every line that it reads; all is loaded before."""
 
 
 def started(*command: str) -> subprocess.Popen[str]:
@@ -45,17 +66,16 @@ def started(*command: str) -> subprocess.Popen[str]:
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
     return subprocess.Popen(
         [sys.executable, *command],
-        env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        text=True,
     )  # fmt: skip
 
 
-def importing(place: str, folder: Path) -> subprocess.Popen[str]:
-    return started("-m", "azee", "db", "add", str(folder), "--db", place, "--quiet")
-
-
 def count(place: str) -> int:
-    with SignDatabase.open(place) as signs:
-        return len(signs.find())
+    """How many signs there are, asked as quickly as can be."""
+    with closing(sqlite3.connect(f"file:{place}?mode=ro", uri=True)) as connection:
+        (found,) = connection.execute("SELECT count(*) FROM sign").fetchone()
+    return int(found)
 
 
 def recordings(folder: Path, signer: Rig, names: range) -> None:
@@ -79,22 +99,33 @@ def test_an_import_killed_fifty_times_ends_with_all_signs_whole(
     for half, folder in enumerate(folders):
         recordings(folder, signer, range(half, FILES, 2))
     readers = [started("-c", READ, place, str(stop)) for _ in range(READERS)]
+    writers = started("-c", IMPORT, place, str(tmp_path / "warm.db"), *map(str, folders))
+    assert writers.stdin is not None
+    assert writers.stdout is not None
+    assert writers.stdout.readline() == "ready\n"
+
+    def begin() -> list[int]:
+        print(file=writers.stdin, flush=True)
+        return [int(child) for child in writers.stdout.readline().split()]  # type: ignore[union-attr]
+
     chance, kills, before = random.Random(50), 0, 0
     while kills < KILLS:
-        writers = [importing(place, folder) for folder in folders]
-        waited = time.monotonic() + 60.0
-        while count(place) == before and time.monotonic() < waited and before < FILES:
-            time.sleep(0.02)
+        children = begin()
+        waited = time.monotonic() + 30.0
+        while count(place) == before < FILES and time.monotonic() < waited:
+            time.sleep(0.1)
         time.sleep(chance.uniform(0.0, 0.1))
-        for writer in writers:
-            writer.send_signal(signal.SIGKILL)
-            writer.communicate()
+        for child in children:
+            with suppress(ProcessLookupError):
+                os.kill(child, signal.SIGKILL)
             kills += 1
+        writers.stdout.readline()
         with SignDatabase.open(place) as signs:
             assert list(problems(signs)) == []
             before = len(signs.find())
-    for writer in [importing(place, folder) for folder in folders]:
-        assert (writer.communicate()[1], writer.returncode) == ("", 0)
+    begin()
+    assert writers.stdout.readline() == "0 0\n"
+    assert writers.communicate()[1] == ""
     stop.touch()
     for reader in readers:
         out, err = reader.communicate()

@@ -108,3 +108,10 @@ def test_the_figures_of_likeness_are_those_of_people(between: Compilation) -> No
     assert found.arm_speed_deg_s is not None
     assert found.arm_speed_deg_s.value < 600.0
     assert [s.rule for s in found.signs] == ["bien", "BONJOUR", "bien"]
+
+
+def test_a_recording_is_played_in_flat_mode_too(signer: Rig) -> None:
+    made = azee.compile(
+        expression=BETWEEN, rig=signer, recordings=AnyRecordings(), mode="flat", life=False
+    )
+    assert np.degrees(off_the_recording_rad(made)) < 0.1

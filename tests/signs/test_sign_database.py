@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from laws import examples
 from made_signs import STICK, facts, motion
 from sqlalchemy import insert, text, update
 
@@ -151,7 +152,7 @@ FACTS = st.builds(
 )
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(0.4))
 @given(known=FACTS, clip=st.binary(max_size=200), original=st.binary(max_size=200))
 def test_every_sign_comes_back_as_it_was(
     known: SignFacts, clip: bytes, original: bytes, tmp_path_factory: pytest.TempPathFactory

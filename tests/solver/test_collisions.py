@@ -20,7 +20,7 @@ from azee_solver.binding import Binding
 from azee_solver.collisions import Obstacles, segment_distance
 from azee_solver.constraint import Constraint, Place
 from azee_solver.evaluate import evaluator
-from azee_solver.geometry import FreePoint, Side, Site, SitePoint
+from azee_solver.geometry import Between, FreePoint, Side, Site, SitePoint, Vec, VTranslate
 from azee_solver.penetration import meant_contact, mesh_penetration
 from azee_solver.winding import distances, winding_numbers
 
@@ -240,6 +240,18 @@ def test_two_sites_at_one_place_are_meant_to_touch() -> None:
     assert apart.reach[n] == obstacles().reach[n]
 
 
+def test_a_contact_between_sites_is_one_with_each_of_them() -> None:
+    chest, chin = (SitePoint(Site(name)) for name in ("ST", "CH"))
+    between = Between(VTranslate(chest, Vec(0.0, 0.01, 0.0)), chin, 0.5)
+    plain = obstacles()
+    called = obstacles(Place(Site("PA", S), between, contact=True, within_m=0.02))
+    each = [obstacles(Place(Site("PA", S), p, contact=True)).reach for p in (chest, chin)]
+    np.testing.assert_allclose(called.reach, np.minimum(*each))
+    assert (called.reach < plain.reach).any()
+    uncalled = obstacles(Place(Site("PA", S), between, within_m=0.02))
+    np.testing.assert_array_equal(uncalled.reach, plain.reach)
+
+
 def test_overlaps_are_reported_deepest_first() -> None:
     q = np.array(RIG.coordinates.idle)
     q[RIG.coordinates.index["f_arm_R.flexion"]] = np.radians(120)
@@ -262,6 +274,26 @@ def test_winding_numbers_tell_inside_from_outside_even_of_an_open_box() -> None:
     np.testing.assert_allclose(winding_numbers(points, CUBE), [1, 1, 0, 0], atol=1e-9)
     open_box = CUBE[2:]
     assert winding_numbers(points[:1], open_box)[0] > 0.7
+
+
+@given(st.integers(0, 10**6), st.integers(1, 40))
+def test_winding_numbers_are_the_sum_of_solid_angles(seed: int, count: int) -> None:
+    """Also of surfaces that cross themselves, seen from their corners too, and of many turns."""
+    random = np.random.default_rng(seed)
+    tangle = random.normal(size=(count, 3, 3))
+    surface = np.concatenate([tangle, np.repeat(CUBE, 3, axis=0), 2.0 * CUBE - 0.5])
+    points = np.concatenate([random.uniform(-0.5, 1.5, (6, 3)), tangle[0, :1], CORNERS[:1]])
+    a, b, c = np.moveaxis(surface[None] - points[:, None, None], 2, 0)
+    lengths = [np.linalg.norm(v, axis=-1) for v in (a, b, c)]
+    volume = np.einsum("ntk,ntk->nt", a, np.cross(b, c))
+    spread = np.prod(lengths, axis=0)
+    for v, w, length in zip((a, b, c), (b, c, a), (lengths[2], *lengths[:2]), strict=True):
+        spread += np.einsum("ntk,ntk->nt", v, w) * length
+    exact = np.arctan2(volume, spread)
+    flat = np.abs(np.abs(exact) - np.pi) < 1e-9  # a point on a triangle sees it from either side
+    sums = exact.sum(axis=1) / (2 * np.pi)
+    seen = ~flat.any(axis=1)
+    np.testing.assert_allclose(winding_numbers(points, surface)[seen], sums[seen], atol=1e-9)
 
 
 @given(st.tuples(coordinate, coordinate, coordinate))

@@ -121,6 +121,7 @@ def test_an_evaluation_with_tables_and_figures(capsys: pytest.CaptureFixture[str
     assert "not recorded" in page
 
 
+@pytest.mark.slow
 def test_a_small_model_is_measured_as_far_as_it_goes(capsys: pytest.CaptureFixture[str]) -> None:
     words = drawn_words()
     write_times(words[:8], "few.csv")

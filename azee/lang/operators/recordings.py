@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from azee.lang.fault import fault
 from azee.lang.machine import Machine
 from azee.lang.native import Group, Native, Occurrence, Operand, Option
 from azee.lang.operators.scores import duration_of
@@ -33,8 +34,8 @@ def _recorded(
     try:
         found = machine.recordings.find(name, language, variant)
     except RecordingError as error:
-        remedy = {"help": error.remedy} if error.remedy else {}
-        raise at.fault(error.code, error.message, "name", **remedy) from None
+        span = at.span_of("name")
+        raise fault(error.code, error.message, span, help=error.remedy) from None
     if attack is not None:
         found = replace(found, attack_s=duration_of(at, attack, "attack"))
     if decay is not None:

@@ -50,6 +50,16 @@ export class View {
     this.place();
   }
 
+  /** Looks from somewhere else. */
+  look(from: { turn: number; tilt: number; away: number; target: readonly [number, number, number] }): void {
+    this.target.set(...from.target);
+    this.roll = 0;
+    this.turn = from.turn;
+    this.tilt = from.tilt;
+    this.away = from.away;
+    this.place();
+  }
+
   resize(width: number, height: number): void {
     this.camera.aspect = width / height;
     this.place();

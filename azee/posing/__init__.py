@@ -1,0 +1,1 @@
+"""The body posed by hand, and the text that puts it there."""

@@ -1,0 +1,232 @@
+// node studio_page.mjs JOURNEY URL PICTURES
+// Uses the page of `azee studio` in headless Chromium. JOURNEY is author, keys, typing, text or times.
+// Prints what was seen as JSON; PICTURES is a folder for screenshots, or empty.
+import { readFileSync } from 'node:fs';
+import { chromium } from 'playwright-core';
+
+const [journey, url, pictures] = process.argv.slice(2);
+const SLOW_MS = 120_000;
+const server = await chromium.launchServer({
+  executablePath: process.env.CHROMIUM,
+  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+    '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    '--disable-quic', '--no-first-run'],
+});
+const browser = await chromium.connect(server.wsEndpoint());
+const complaints = [], foreign = [];
+
+async function opened(width = 1366, height = 768, search = '') {
+  const page = await browser.newPage({ viewport: { width, height }, acceptDownloads: true });
+  page.setDefaultTimeout(SLOW_MS);
+  page.on('pageerror', error => complaints.push(error.message));
+  page.on('request', request => {
+    const address = request.url();
+    if (!address.startsWith(url) && !/^(blob|data):/.test(address)) foreign.push(address);
+  });
+  await page.goto(url + search);
+  await page.waitForFunction(() => window.azeeStudio?.document.file);
+  return page;
+}
+
+const shot = (page, name) => pictures && page.screenshot({ path: `${pictures}/${name}.png` });
+/** Waits until the newest text is signed. */
+const signed = page => page.waitForFunction(() =>
+  azeeStudio.sent > 0 && azeeStudio.shownNumber === azeeStudio.sent && azeeStudio.document.file);
+const text = page => page.evaluate(() => azeeStudio.editor.text);
+const at = (page, time) => page.evaluate(t => {
+  azeeStudio.signer.play(false);
+  azeeStudio.signer.seek(t);
+  return azeeStudio.signer.joints();
+}, time);
+const farthest = (a, b) => Math.max(...Object.keys(a).map(name =>
+  Math.hypot(...a[name].map((x, i) => x - b[name][i]))));
+
+/** Returns the faults that axe-core calls serious or critical. */
+async function faults(page) {
+  await page.evaluate(readFileSync('node_modules/axe-core/axe.min.js', 'utf8'));
+  const { violations } = await page.evaluate(() => axe.run());
+  return violations.filter(({ impact }) => ['serious', 'critical'].includes(impact))
+    .map(({ id, nodes }) => `${id}: ${nodes.map(node => node.target.join(' ')).join(', ')}`);
+}
+
+/** A new author: writes, errs, mends, sees, looks closer, exports, saves, comes back. */
+async function author() {
+  const page = await opened();
+  const told = {};
+  const lines = [':info-about', "    'topic", ':persone', "'info", ':âge'];
+  await page.click('.cm-content');
+  for (const line of lines) await page.keyboard.insertText(line).then(() => page.keyboard.press('Enter'));
+  await page.waitForSelector('.problems li.error');
+  await page.waitForSelector('.cm-lintRange-error');
+  told.problem = await page.textContent('.problems li.error');
+  told.under = await page.textContent('.cm-lintRange-error');
+  await shot(page, 'error');
+
+  await page.click('.problems li.error button');
+  await page.keyboard.press('End');
+  await page.keyboard.press('Backspace');
+  await page.keyboard.insertText('ne');
+  await signed(page);
+  told.problems = await page.locator('.problems li').count();
+  told.text = await text(page);
+  const end = await page.evaluate(() => azeeStudio.signer.duration);
+  told.moved_m = farthest(await at(page, 0), await at(page, end / 2));
+  await shot(page, 'signed');
+
+  await page.click('.score .block[aria-label^="INFO"]');
+  told.chosen = await page.getAttribute('.score .block[aria-selected=true]', 'aria-label');
+  told.lit = await page.locator('.line-chosen').allTextContents();
+  await page.selectOption('select[aria-label=Speed]', '0.5');
+  told.speed = await page.evaluate(() => azeeStudio.signer.speed);
+  await page.selectOption('select[aria-label=Camera]', 'hands');
+  await page.click('#tab-reasons');
+  await page.check('.panel .check input');
+  await page.waitForSelector('.reasons li');
+  told.reasons = await page.locator('.reasons li').count();
+  await page.waitForTimeout(300);
+  await shot(page, 'reasons');
+
+  await page.click('#tab-rules');
+  await page.fill('input[type=search]', 'tree');
+  await page.waitForSelector('.rules .rule:has-text(":arbre")');
+  told.first_rule = await page.textContent('.rules .rule code');
+  await page.waitForSelector('.rules .thumb img');
+  await shot(page, 'rules');
+  await page.click('#tab-blocks');
+  await page.waitForSelector('.blocks [role=treeitem]');
+  told.blocks = await page.locator('.blocks .block-row code').allTextContents();
+  await shot(page, 'blocks');
+
+  const before = await at(page, 1);
+  await page.click('#tab-settings');
+  await page.selectOption('.panel select[aria-label=Body]', 'child');
+  await signed(page);
+  await page.waitForFunction(height =>
+    azeeStudio.signer.joints().head?.[1] < height - 0.1, before.head[1]);
+  await shot(page, 'child');
+
+  const [download] = await Promise.all([
+    page.waitForEvent('download'), page.selectOption('select[aria-label=Export]', '.bvh'),
+  ]);
+  told.exported = download.suggestedFilename();
+  const [start] = await (await download.createReadStream()).take(1).toArray();
+  told.export_begins = String(start).slice(0, 9);
+
+  await page.click('.cm-content');
+  await page.keyboard.press('Control+s');
+  await page.waitForFunction(() => azeeStudio.document.state === 'saved');
+  await page.reload();
+  await page.waitForFunction(() => window.azeeStudio?.document.file);
+  await signed(page);
+  told.reloaded = await text(page);
+  told.state = await page.textContent('.state');
+  told.faults = await faults(page);
+  for (const panel of ['blocks', 'reasons', 'versions', 'film', 'settings']) {
+    await page.click(`#tab-${panel}`);
+    await page.waitForTimeout(200);
+    told.faults.push(...await faults(page));
+  }
+  await page.close();
+  for (const [width, height] of [[1366, 768], [1024, 768], [390, 844]]) {
+    const other = await opened(width, height, width < 500 ? '?lang=fr' : '');
+    await signed(other);
+    await at(other, 1.9);
+    await other.waitForTimeout(300);
+    await shot(other, `page-${width}`);
+    told.faults.push(...await faults(other));
+    told[`wide_${width}`] = await other.evaluate(() => document.documentElement.scrollWidth);
+    await other.close();
+  }
+  return told;
+}
+
+/** All of it without a mouse. */
+async function keys() {
+  const page = await opened(1024, 768);
+  const told = {};
+  const press = async (...names) => { for (const name of names) await page.keyboard.press(name); };
+  const focused = () => page.evaluate(() => document.activeElement?.closest('[data-part]')?.dataset.part ?? null);
+  await press('F6');
+  told.parts = [await focused()];
+  await page.keyboard.insertText(':arbre');
+  await press('Enter');
+  await signed(page);
+  const before = await page.evaluate(() => azeeStudio.signer.playing);
+  await press('Control+Enter');
+  told.toggles = before !== await page.evaluate(() => azeeStudio.signer.playing);
+  await press('Control+Enter', 'Control+s');
+  await page.waitForFunction(() => azeeStudio.document.state === 'saved');
+  await press('F6');
+  told.parts.push(await focused());
+  await press('F6');
+  told.parts.push(await focused());
+  await press('ArrowRight', 'ArrowDown');
+  told.block = await page.getAttribute('.score .block[aria-selected=true]', 'aria-label');
+  await press('Enter');
+  told.loops = await page.evaluate(() => azeeStudio.signer.loop !== null && azeeStudio.signer.playing);
+  await shot(page, 'keys-score');
+  await press('F6');
+  told.parts.push(await focused());
+  await press('Escape', 'Shift+Tab');
+  for (let i = 0; i < 12 && !(await page.evaluate(() => document.activeElement?.id === 'tab-blocks')); i++)
+    await press('Shift+Tab');
+  told.tab = await page.evaluate(() => document.activeElement?.id);
+  await press('Enter');
+  await page.waitForSelector('.blocks [role=treeitem]');
+  for (let i = 0; i < 20 && (await focused()) !== 'panel'; i++) await press('F6');
+  told.parts.push(await focused());
+  await press('ArrowDown');
+  told.tree = await page.evaluate(() => document.activeElement?.getAttribute('role'));
+  await shot(page, 'keys-blocks');
+  await press('Escape');
+  told.closed = await page.evaluate(() => document.querySelector('.panel').hidden);
+  told.back = await page.evaluate(() => document.activeElement?.id);
+  return told;
+}
+
+/** Types numbered comments and prints each; ends when the text cannot be sent, or when killed. */
+async function typing() {
+  const page = await opened();
+  await page.click('.cm-content');
+  await page.keyboard.press('Control+End');
+  console.log(JSON.stringify({ browser: server.process().pid }));
+  for (let i = 0; i < 2000; i++) {
+    await page.keyboard.insertText(`# ${i}\n`);
+    console.log(JSON.stringify({ typed: i, at: Date.now() }));
+    await new Promise(resolve => setTimeout(resolve, 40));
+  }
+  return {};
+}
+
+/** The text that the page shows first, and what it says about it. */
+async function shown() {
+  const page = await opened();
+  await page.waitForTimeout(300);
+  return { text: await text(page), notices: await page.locator('.notice').allTextContents() };
+}
+
+/** Edits a sentence and prints how long each edit took to move the signer; then frames. */
+async function times() {
+  const page = await opened();
+  await page.click('.cm-content');
+  await page.keyboard.insertText(":info-about('topic :personne, 'info :âge)\n");
+  await signed(page);
+  for (const word of ['arbre', 'âge', 'arbre', 'âge', 'arbre', 'âge', 'arbre', 'âge']) {
+    await page.evaluate(other => azeeStudio.editor.replace(`:info-about('topic :personne, 'info :${other})\n`), word);
+    await signed(page);
+    await page.waitForTimeout(600);
+  }
+  return page.evaluate(() => ({
+    edits_ms: azeeStudio.latencies.map(Math.round), worker_ms: azeeStudio.workerTimes,
+    device: azeeStudio.signer.device, frames_ms: azeeStudio.signer.timed(40),
+  }));
+}
+
+const journeys = { author, keys, typing, text: shown, times };
+try {
+  const told = await journeys[journey]();
+  console.log(JSON.stringify({ ...told, complaints, foreign }));
+} finally {
+  await browser.close().catch(() => {});
+  await server.close().catch(() => {});
+}

@@ -1,0 +1,221 @@
+"""Strangers are refused, the folder is the limit, work is bounded, and the server lives."""
+
+from __future__ import annotations
+
+import json
+import random
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from studio_server import Studio, received, until
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+
+pytestmark = pytest.mark.slow
+SECRET = "what nobody may read"
+MUTATIONS = 1000
+LARGEST_MB = 400
+"""Of the server's own memory, whatever it is asked."""
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
+    folder = tmp_path_factory.mktemp("studio")
+    (folder / "open" / "sub").mkdir(parents=True)
+    (folder / "secret.azee").write_text(SECRET)
+    (folder / "secret.mp4").write_text(SECRET)
+    (folder / "open" / "a.azee").write_text(":arbre\n")
+    (folder / "open" / "film.mp4").write_bytes(bytes(1000))
+    (folder / "open" / "link.azee").symlink_to(folder / "secret.azee")
+    (folder / "open" / "out").symlink_to(folder)
+    started = Studio(folder / "open", folder / "kept.sqlite")
+    yield started
+    started.kill()
+
+
+def test_the_page_and_its_files_are_served(studio: Studio) -> None:
+    status, page = studio.ask("")
+    assert status == 200
+    for name in re.findall(rb'(?:src|href)="\./([^"]+)"', page):
+        assert studio.ask(name.decode())[0] == 200
+    listed = json.loads(studio.ask("api/files")[1])
+    assert (listed["files"], listed["films"]) == (["a.azee"], ["film.mp4"])
+    assert listed["bodies"][0] == "signer"
+    status, part = studio.ask("film?name=film.mp4", headers={"Range": "bytes=0-9"})
+    assert (status, len(part)) == (206, 10)
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Host": "evil.example"},
+        {"Origin": "http://evil.example"},
+        {"Origin": "null"},
+        {"Host": "127.0.0.1"},
+    ],
+    ids=str,
+)
+def test_other_hosts_and_origins_are_refused(studio: Studio, headers: dict[str, str]) -> None:
+    for path in ("", "api/files", "api/file?name=a.azee"):
+        assert studio.ask(path, headers=headers)[0] in (403, 421)
+    assert studio.ask("api/file?name=a.azee", "PUT", {"text": ""}, headers)[0] in (403, 421)
+
+
+def test_nothing_is_there_without_the_token(studio: Studio) -> None:
+    for path in ("/", "/api/files", "/x/api/files", "/live", "/studio.html", "//", "/%2e%2e/"):
+        status, body = studio.ask_whole(path)
+        assert status in (403, 404)
+        assert SECRET.encode() not in body
+    assert studio.ask("api/file?name=a.azee", "PUT", {"text": ""}, {"Origin": ""})[0] == 403
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", None])
+def test_a_live_connection_needs_an_origin_of_ours(studio: Studio, origin: str | None) -> None:
+    with pytest.raises(InvalidStatus), studio.live(origin=origin):  # type: ignore[arg-type]
+        pass
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("../secret.azee", "%2e%2e/secret.azee", "..%2fsecret.azee", "%2e%2e%2fsecret.azee"),
+        *("..%5csecret.azee", "sub/..%2f..%2fsecret.azee", "link.azee", "out/secret.azee"),
+        *("%00.azee", "%ff%fe.azee", "....//secret.azee", "%252e%252e%252fsecret.azee"),
+        *("/etc/passwd", "%2fetc%2fpasswd", "..%c0%afsecret.azee", "a.azee%00.txt"),
+    ],
+)
+def test_no_name_leads_out_of_the_folder(studio: Studio, name: str) -> None:
+    for path in (f"api/file?name={name}", f"film?name={name.replace('azee', 'mp4')}", name,
+                 f"body/{name}", f"api/versions?name={name}"):  # fmt: skip
+        status, body = studio.ask(path)
+        assert SECRET.encode() not in body
+        assert b"root:" not in body
+        assert status >= 400 or path.startswith("api/versions")
+    before = sorted(studio.folder.parent.glob("*"))
+    studio.ask(f"api/file?name={name}", "PUT", {"text": "x", "digest": None})
+    assert sorted(studio.folder.parent.glob("*")) == before
+    assert (studio.folder.parent / "secret.azee").read_text() == SECRET
+
+
+def test_the_language_server_reads_nothing_outside_either(studio: Studio) -> None:
+    with studio.live() as socket:
+        root = until(socket, "hello")[0]["root"]
+        for number, uri in enumerate(
+            [root.replace("/open", "/secret.azee"), "file:///etc/passwd", f"{root}/link.azee",
+             f"{root}/../secret.azee", f"{root}/out/secret.azee"]
+        ):  # fmt: skip
+            params = {"textDocument": {"uri": uri}}
+            message = {"jsonrpc": "2.0", "id": number, "method": "textDocument/documentSymbol",
+                       "params": params}  # fmt: skip
+            socket.send(json.dumps({"kind": "lsp", "message": message}))
+            answer = until(socket, "lsp")[0]["message"]
+            assert answer["id"] == number
+            assert "outside" in answer["error"]["message"]
+
+
+def test_a_text_comes_as_score_and_movement(studio: Studio) -> None:
+    with studio.live() as socket:
+        job = {"kind": "compile", "number": 5, "file": "a.azee", "text": ":arbre\n"}
+        socket.send(json.dumps(job))
+        assert until(socket, "score", number=5)[0]["blocks"][0]["rule"] == "arbre"
+        _, clip = until(socket, "clip", number=5)
+        assert clip.startswith(b"AZWC")
+        assert until(socket, "report", number=5)[0]["constraints"]
+        socket.send(json.dumps({"kind": "draft", "file": "a.azee", "text": ":a", "number": 6}))
+        assert until(socket, "kept")[0]["number"] == 6
+    assert json.loads(studio.ask("api/file?name=a.azee")[1])["draft"]["text"] == ":a"
+    assert studio.ask("api/draft?name=a.azee", "DELETE")[0] == 200
+
+
+MOVE = {"edit": "move", "path": [], "row": 0, "to_path": [], "to_row": 2}
+REQUESTS = [
+    ("GET", "api/file?name=a.azee", None),
+    ("PUT", "api/file?name=new.azee", {"text": ":arbre\n", "digest": None}),
+    ("GET", "api/version?name=a.azee&number=1", None),
+    ("POST", "api/rules", {"file": "a.azee", "text": ":arbre\n"}),
+    ("POST", "api/blocks", {"file": "a.azee", "text": ":arbre('loc ^Mssp)\n"}),
+    ("POST", "api/edit", {"file": "a.azee", "text": ":a\n:b\n", "edit": MOVE}),
+    ("POST", "api/export", {"file": "a.azee", "text": ":abre\n", "number": 1, "suffix": ".bvh"}),
+    ("GET", "body/signer.glb", None),
+    ("GET", "film?name=film.mp4", None),
+]
+BEGIN = {"capabilities": {}, "processId": None, "rootUri": None}
+TEXT = {"uri": "file:///a.azee", "languageId": "azee", "version": 1, "text": ""}
+CALLS = [
+    {"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": BEGIN},
+    {"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": TEXT}},
+]
+MESSAGES: list[dict[str, object]] = [
+    {"kind": "compile", "number": 1, "file": "a.azee", "text": ":abre\n", "rig": "signer"},
+    {"kind": "draft", "number": 1, "file": "b.azee", "text": ":abre\n", "digest": None},
+    {"kind": "watch", "file": "a.azee", "digest": "0"},
+    *({"kind": "lsp", "message": call} for call in CALLS),
+]
+
+
+def mutated(data: bytes, rng: random.Random) -> bytes:
+    """Change, remove, repeat or insert some bytes, or a word that means something."""
+    changed = bytearray(data)
+    for _ in range(rng.randint(1, 4)):
+        at = rng.randrange(len(changed) + 1)
+        match rng.randrange(5):
+            case 0:
+                changed[at : at + 1] = bytes([rng.randrange(256)])
+            case 1:
+                del changed[at : at + rng.randint(1, 8)]
+            case 2:
+                changed[at:at] = changed[max(0, at - 20) : at] * rng.randint(1, 50)
+            case 3:
+                words = (b"..", b"null", b"1e999", b"[" * 3000, b"\\ud800", b"-1", b'"x":', b"{}")
+                changed[at:at] = rng.choice(words)
+            case _:
+                changed[at:at] = b"9" * rng.randint(1, 400)
+    return bytes(changed)
+
+
+def test_a_thousand_mutated_requests_and_messages_are_refused_bounded_and_survived(
+    studio: Studio,
+) -> None:
+    rng = random.Random(7)
+    seen: dict[int, int] = {}
+    for _ in range(MUTATIONS // 2):
+        method, path, body = rng.choice(REQUESTS)
+        raw = None if body is None else mutated(json.dumps(body).encode(), rng)
+        if rng.random() < 0.5 or raw is None:
+            path = mutated(path.encode(), rng).decode("latin-1")
+            path = re.sub(r"[^!-~]", lambda m: f"%{ord(m[0]):02x}", path)[:3000]
+        status, answer = studio.ask(path, method, headers={}, raw=raw)
+        seen[status] = seen.get(status, 0) + 1
+        assert SECRET.encode() not in answer
+        assert status < 500 or status == 503, (method, path, raw, answer)
+    left = MUTATIONS // 2
+    while left > 0:
+        with studio.live() as socket:
+            try:
+                for _ in range(min(left, 25)):
+                    left -= 1
+                    message = mutated(json.dumps(rng.choice(MESSAGES)).encode(), rng)
+                    socket.send(message.decode("utf-8", "replace"))
+                socket.send(json.dumps({"kind": "nothing"}))
+                until(socket, "refused", message="there is no such kind of message")
+            except ConnectionClosed:
+                continue
+    assert sum(count for status, count in seen.items() if status >= 400) > MUTATIONS // 5
+    test_a_text_comes_as_score_and_movement(studio)
+    assert _memory_mb(studio) < LARGEST_MB
+
+
+def test_a_body_that_is_too_large_is_refused(studio: Studio) -> None:
+    status, _ = studio.ask("api/rules", "POST", raw=b"x" * 3_000_000)
+    assert status == 413
+    with studio.live() as socket:
+        received(socket)
+        socket.send("x" * 3_000_000)
+        with pytest.raises(ConnectionClosed):
+            until(socket, "nothing")
+
+
+def _memory_mb(studio: Studio) -> float:
+    status = Path(f"/proc/{studio.process.pid}/status").read_text()
+    return int(re.search(r"VmRSS:\s+(\d+)", status)[1]) / 1000  # type: ignore[index]

@@ -46,6 +46,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("clip", "cut", "--help"): set(),
     ("repl", "--help"): set(),
     ("repl",): {"lark"},
+    ("play", "--help"): set(),
     ("rig", "--help"): set(),
     ("capture", "reconstruct", "--help"): set(),
     ("corpus", "stats", "--help"): set(),

@@ -17,7 +17,17 @@ from azee.blocks.comments import (
     is_word,
     notes_of_fragment,
 )
-from azee.blocks.edits import Delete, Edit, Insert, Move, Rename, Replace, SetNumber
+from azee.blocks.edits import (
+    Delete,
+    Edit,
+    Insert,
+    Move,
+    Rename,
+    Replace,
+    SetNumber,
+    Unwrap,
+    Wrap,
+)
 from azee.blocks.fault import cannot_edit
 from azee.blocks.tree import Items, content, node_at
 from azee.blocks.tree_edit import EditedTree, edited
@@ -150,7 +160,16 @@ class Document:
                 text, gone = self._without_item(row)
             case Move((), row, (), to_row):
                 text = self._with_moved_item(row, to_row)
-            case _:
+            case (
+                Replace()
+                | Insert()
+                | Delete()
+                | Move()
+                | Rename()
+                | SetNumber()
+                | Wrap()
+                | Unwrap()
+            ):
                 text, gone = self._with_changed_items(edit, tree)
         document = Document.of(text, self.source.name)
         if document.nodes != tree.items:
@@ -172,8 +191,8 @@ class Document:
         for old, new in reversed([*zip(self.items, tree.items, strict=True)]):
             if new is None or new is old.node:
                 continue
-            notes, lost = old.notes.without_words(left, tree.removed)
-            gone += (comment.text for comment in lost)
+            notes, removed = old.notes.without_words(left, tree.removed)
+            gone += (comment.text for comment in removed)
             changed = self._spliced(edit, tree) if self._has_own_layout(old) else None
             if changed is None:
                 changed = written(new, known | notes.words, notes.after, self.source.name)

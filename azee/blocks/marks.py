@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from azee_grammar.syntax import Head, OperatorName, RuleName
+from azee_grammar.syntax import BoneName, Head, OperatorName, RuleName, SiteName
 
 MARKS: Mapping[str, str] = {
     "info-about": "=",
@@ -29,5 +29,5 @@ def mark_of(head: Head) -> str | None:
             return MARKS.get(name)
         case OperatorName(name=name):
             return OPERATOR_MARKS.get(name, MARKS.get(name))
-        case _:
+        case BoneName() | SiteName():
             return None

@@ -134,7 +134,7 @@ class _Viewer:
                 words.append(node.head.span)
                 children = tuple(self._operands(node, path))
                 rows = len(sub_rows(node))
-            case _:
+            case Number() | Text() | Symbol() | Parameter() | Hole() | SideWord():
                 kind, text = _kind(node), first_word(node)
                 words.append(node.span)
         above, beside = self._comments(words)

@@ -137,7 +137,7 @@ class _Writer:
                     self._put("  ")
                     self._operand(operand)
                 self._put(")" if operands else "")
-            case _:
+            case Number() | Text() | Symbol() | Parameter() | Hole() | SideWord():
                 self._word(_word(expr), expr.span)
 
     def _call(self, expr: Application) -> None:

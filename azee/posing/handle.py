@@ -83,13 +83,12 @@ def read_handle(text: str, program: Program) -> Handle:
     if len(words) > 1 and words[0] in ("dir", "nrm"):
         axis, text = BoneAxis(words[0]), text.strip()[3:].strip()
     sigil = "" if text.strip()[:1] in "@!" else "@"
-    match program.value(f"{sigil}{text.strip()}", "the handle"):
-        case SiteValue(content=site):
-            return SiteHandle(site)
-        case BoneValue(content=bone):
-            return BoneHandle(bone, axis)
-        case _:
-            raise AZeeError(cannot_pose(f"`{text}` is no part of a body that can be dragged"))
+    part = program.value(f"{sigil}{text.strip()}", "the handle")
+    if isinstance(part, SiteValue):
+        return SiteHandle(part.content)
+    if isinstance(part, BoneValue):
+        return BoneHandle(part.content, axis)
+    raise AZeeError(cannot_pose(f"`{text}` is no part of a body that can be dragged"))
 
 
 def _morph(name: str, side: str | None, program: Program) -> MorphHandle:

@@ -13,7 +13,17 @@ from azee.lang.scope import AmbiguousRule
 from azee.lang.values import ConstraintsValue
 from azee_grammar.diagnostic import AZeeError
 from azee_solver.anatomy import Part, anatomy
-from azee_solver.constraint import Constraint, Morph, Orient, Place
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Rotate,
+    Transpath,
+    Trill,
+)
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 
@@ -98,5 +108,5 @@ def _is_of_hand(constraint: Constraint, evaluator: Evaluator) -> bool:
             return not evaluator.binding.site(site).bone.startswith(("palm", "f_arm", "arm"))
         case Orient(bone=bone):
             return bone.name in ("thumb", "index", "middle", "ring", "little")
-        case _:
+        case Look() | LookAt() | Rotate() | Trill() | Transpath():
             return False

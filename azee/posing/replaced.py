@@ -19,7 +19,7 @@ from azee_solver.constraint import (
 
 
 def is_replaced(constraint: Constraint, handle: Handle, binding: Binding) -> bool:
-    """Whether a constraint gives way to what is dragged.
+    """Whether a constraint is replaced by what is dragged.
 
     A placement does if its site is on the same hand, or on the same bone elsewhere; an orientation
     if it is of the same axis of the same bone; all gazes do; a morph if it is the same one or moves

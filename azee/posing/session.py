@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +47,8 @@ from azee_solver.geometry import Side
 
 Array = NDArray[np.float64]
 
+FRAME_S = 1 / 30
+"""Between two frames of a clip."""
 STEP_M = 0.01
 """How far a hand goes between two frames at a third of a metre a second."""
 MET_M, MET_RAD = 1e-3, math.radians(0.5)
@@ -285,9 +286,15 @@ class PosingSession:
         text = self.text.with_document(proposal.document)
         made = perform(text.score, self.made.rig, dominant=text.dominant)
         when = _written_at(made.score, proposal)
-        inside = when is None or when.start <= Fraction(self.at_s) <= when.end
-        at_s = self.at_s if inside or when is None else float(when.start + when.end) / 2
+        at_s = self.at_s if when is None else _well_inside(when, self.at_s)
         return PosingSession(text, made, at_s)
+
+
+def _well_inside(interval: Interval, at_s: float) -> float:
+    """Return the time nearest to one at which a frame of a clip is in an interval, if any is."""
+    start, end = float(interval.start), float(interval.end)
+    margin = min(FRAME_S, (end - start) / 2)
+    return min(max(at_s, start + margin), end - margin)
 
 
 def _written_at(score: Score, proposal: Proposal) -> Interval | None:

@@ -67,7 +67,7 @@ def up(fingers: str, palm: str = "forward") -> Hand:
 
 
 LSF: Mapping[str, Shown] = {
-    "A": Shown(up("cccc"), free={("T_TIP_R", "I_t_R_2"): 0.03}),
+    "A": Shown(up("cccc"), free={("T_TIP_R", "I_t_R_2"): 0.03, ("T_TIP_R", "M_KN_R_3"): 0.03}),
     "B": Shown(up("ssss"), touches=(("T_TIP_R", "M_KNi_R_1"),), beside=("IM", "MR")),
     "C": Shown(up("rrrr", "in"), free={("T_TIP_R", "I_TIP_R"): 0.03}, beside=("IM", "MR")),
     "D": Shown(up("srrr"), touches=(("T_PAD_R", "M_PAD_R"),)),

@@ -212,7 +212,7 @@ def faults(seen: Seen, shown: Shown) -> list[str]:
         if near > BESIDE_M if pair in shown.beside else near < APART_M:
             out.append(f"tips {pair}: {near:.3f}")
     if shown.crossed:
-        one, other = shown.crossed
+        one, other = shown.crossed[0], shown.crossed[1]
         tip, knuckle = (seen.site(f"{one}_{site}")[0] - seen.site(f"{other}_{site}")[0]
                         for site in ("TIP_R", "KN_R_1"))  # fmt: skip
         if np.sign(tip) == np.sign(knuckle):

@@ -67,7 +67,7 @@ def up(fingers: str, palm: str = "forward") -> Hand:
 
 
 LSF: Mapping[str, Shown] = {
-    "A": Shown(up("cccc"), free={("T_TIP_R", "I_t_R_2"): 0.03}),
+    "A": Shown(up("cccc"), free={("T_TIP_R", "I_t_R_2"): 0.03, ("T_TIP_R", "M_KN_R_3"): 0.03}),
     "B": Shown(up("ssss"), touches=(("T_TIP_R", "M_KNi_R_1"),), beside=("IM", "MR")),
     "C": Shown(up("rrrr", "in"), free={("T_TIP_R", "I_TIP_R"): 0.03}, beside=("IM", "MR")),
     "D": Shown(up("srrr"), touches=(("T_PAD_R", "M_PAD_R"),)),
@@ -212,7 +212,7 @@ def faults(seen: Seen, shown: Shown) -> list[str]:
         if near > BESIDE_M if pair in shown.beside else near < APART_M:
             out.append(f"tips {pair}: {near:.3f}")
     if shown.crossed:
-        one, other = shown.crossed
+        one, other = shown.crossed[0], shown.crossed[1]
         tip, knuckle = (seen.site(f"{one}_{site}")[0] - seen.site(f"{other}_{site}")[0]
                         for site in ("TIP_R", "KN_R_1"))  # fmt: skip
         if np.sign(tip) == np.sign(knuckle):

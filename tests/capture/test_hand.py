@@ -56,7 +56,7 @@ def test_targets_out_of_reach_leave_the_limits_exact(signer: Rig) -> None:
     hand = Hand(signer, "R")
     shape = own_shape(hand)
     idle = np.tile(hand.limits.idle, (10, 1))
-    targets = hand.marker_positions(shape, idle) + [0.0, 0.0, -0.3]
+    targets = [*hand.marker_positions(shape, idle), 0.0, 0.0, -0.3]
     found = HandFit(hand, shape).solved(targets, idle, 100.0)
     c = signer.coordinates
     assert ((found >= c.lower) & (found <= c.upper)).all()

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import CHOSEN, away
+from recorded_hand import CHOSEN, away
 
 from azee.capture.hand import TIP_SHARE
 from azee.capture.hand_over import hand_clip, hand_over

@@ -194,9 +194,9 @@ def letters_report(people: Path, rig: Rig) -> None:
         read = {x for x, *v in zip(names, *views, strict=True) if v.count(x) >= 2}
         own = own or read
         wrong = np.degrees(np.abs(q - clip.coordinates)[:, hand.columns].mean())
-        lost = "".join(sorted(set(names) - read))
+        unread = "".join(sorted(set(names) - read))
         print(
-            f"{name:17} {len(read):3}  {len(read & own):6} of {len(own):3}  {wrong:16.1f}  {lost}"
+            f"{name:17} {len(read):3}  {len(read & own):6} of {len(own):3}  {wrong:16.1f}  {unread}"
         )
 
 

@@ -122,11 +122,14 @@ def reconstruct(
     reference[:, hand.columns] = angles
     columns = model.columns(model.digits)
     targets, off = at[:, columns].copy(), model.off_m[columns]
+    noisy = _for_noise(model, roughness_of(track.positions)) is not model.regression
     for k, name in enumerate(known):
         m = model.digits.index(name)
         share = track.trust[:, k, None]
-        seen = np.where(share > 0.0, track.positions[:, k], 0.0)
-        targets[:, m] += share * (seen - targets[:, m])
+        apart = np.where(share > 0.0, track.positions[:, k] - targets[:, m], 0.0)
+        if noisy:
+            apart = cone_filter(apart, taps_at(markers.rate_hz, COMPONENT_TAPS))
+        targets[:, m] += share * apart
         off[m] = SURE_M
     shape = model.shape
     postures = HandFit(hand, shape).solved(

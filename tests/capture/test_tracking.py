@@ -13,7 +13,7 @@ TIMES = np.arange(200) / RATE
 def two_markers() -> np.ndarray:
     """Two markers that move slowly, 3 cm apart."""
     first = np.stack([0.02 * np.sin(4 * TIMES), 0.01 * TIMES, 0 * TIMES], axis=1)
-    return np.stack([first, [*first, 0.0, 0.03, 0.0]], axis=1)
+    return np.stack([first, first + np.array([0.0, 0.03, 0.0])], axis=1)
 
 
 def test_nothing_is_changed_where_nothing_is_wrong() -> None:

@@ -96,10 +96,10 @@ def report_of(markers: Markers, rig: Rig) -> None:
         told, fit = (1000 * off(made, truth, model, fitted=f) for f in (False, True))
         beyond = int(((made.postures < limits.lower) | (made.postures > limits.upper)).sum())
         unseen = [np.nanmean(x[:, hidden]) if any(hidden) else np.nan for x in (told, fit)]
-        rate = len(last.positions) / spent
+        speed = len(last.positions) / spent
         print(
             f"{len(names):7}  {unseen[0]:9.2f}  {np.nanmean(fit):14.2f}  {unseen[1]:9.2f}  "
-            f"{1000 * np.nanmean(made.off_m):15.2f}  {rate:8.0f}  {beyond:13}"
+            f"{1000 * np.nanmean(made.off_m):15.2f}  {speed:8.0f}  {beyond:13}"
         )
     clean = reconstruct(last, model)
     print("bad markers       mean mm  change mm  largest jump of the change mm: foretold  fitted")
@@ -195,9 +195,9 @@ def letters_report(people: Path, rig: Rig) -> None:
         read = {x for x, *v in zip(names, *views, strict=True) if v.count(x) >= 2}
         own = own or read
         wrong = np.degrees(np.abs(q - clip.coordinates)[:, hand.columns].mean())
-        lost = "".join(sorted(set(names) - read))
+        unread = "".join(sorted(set(names) - read))
         print(
-            f"{name:17} {len(read):3}  {len(read & own):6} of {len(own):3}  {wrong:16.1f}  {lost}"
+            f"{name:17} {len(read):3}  {len(read & own):6} of {len(own):3}  {wrong:16.1f}  {unread}"
         )
 
 

@@ -23,12 +23,18 @@ from azee.capture.markers import Floats
 from azee.capture.places import Place
 from azee.capture.root_frame import rigid
 from azee.clip.digits import DIGITS
+from azee_rig.rotation import about_axis
 
 Told = Callable[[int, int], None]
 
-STARTS = (0.9, 1.0, 1.12)
+STARTS = (0.95, 1.08)
 """Sizes of hands to start from, times the body's: the best is gone on with."""
-FIRST, ROUNDS = 3, 10
+TILTS_DEG = (-40.0, -20.0, 0.0, 20.0, 40.0)
+"""Tilts of the palm about its knuckles to start from, degrees from where the mean pose looks like
+the idle hand: bent knuckles look like a tilted palm, and only limits tell them apart."""
+FIRST_POSES = 30
+"""Poses on which starts are compared."""
+FIRST, ROUNDS = 3, 16
 """Rounds from each start, and from the best."""
 MARKER_M = 0.002
 """How well markers are met; the unit of the costs below."""
@@ -58,7 +64,8 @@ def calibrate(
     Args: poses: (N, m, 3) markers on digits in the root's frame, in the order of `places`.
     """
     hand = replace(hand, coupled=False)
-    total = len(STARTS) * FIRST + ROUNDS
+    starts = [(size, np.radians(tilt)) for tilt in TILTS_DEG for size in STARTS]
+    total = len(starts) * FIRST + ROUNDS
     done = 0
 
     def improved(found: Calibrated, rounds: int) -> Calibrated:
@@ -70,16 +77,26 @@ def calibrate(
                 told(done, total)
         return found
 
-    starts = [improved(_start(poses, places, hand, size), FIRST) for size in STARTS]
-    return improved(min(starts, key=lambda found: float(found.off_m.mean())), ROUNDS)
+    few = poses[:: max(1, len(poses) // FIRST_POSES)]
+    whole, poses = poses, few
+    found = [improved(_start(poses, places, hand, *start), FIRST) for start in starts]
+    best = min(found, key=lambda found: float(found.off_m.mean()))
+    poses = whole
+    return improved(_posed(best.shape, poses, hand), ROUNDS)
 
 
-def _start(poses: Floats, places: Mapping[str, Place], hand: Hand, size: float) -> Calibrated:
-    """Return the body's own hand in another size, laid on the poses."""
+def _start(
+    poses: Floats, places: Mapping[str, Place], hand: Hand, size: float, tilt: float
+) -> Calibrated:
+    """Return the body's own hand in another size, laid on the poses, the palm tilted more."""
     markers = {name: (place, size * hand.site(place)) for name, place in places.items()}
     shape = HandShape(size * hand.own_offsets, markers, np.eye(3), np.zeros(3))
     idle = hand.body.coordinates.idle[None]
     shape = _turned(shape, poses.mean(axis=0)[None], hand.marker_positions(shape, idle))
+    knuckles = shape.offsets[3::3].mean(axis=0)
+    R = about_axis(0, tilt)
+    shift = R @ (shape.shift - knuckles) + knuckles
+    shape = replace(shape, rotation=R @ shape.rotation, shift=shift)
     return _posed(shape, poses, hand)
 
 

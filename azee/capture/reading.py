@@ -71,7 +71,7 @@ def _told(path: Path, make: Any, *arguments: Any) -> Any:
 
 def _archive(path: Path) -> tuple[tuple[str, ...], Floats, float | None, str]:
     try:
-        with np.load(path, allow_pickle=False) as packed:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as packed:
             if not {"markers", "names"} <= set(packed.files):
                 raise MarkersError("it holds no markers: an archive of them has `markers`, `names`")
             positions = np.asarray(packed["markers"], dtype=np.float64)

@@ -122,11 +122,15 @@ def reconstruct(
     reference[:, hand.columns] = angles
     columns = model.columns(model.digits)
     targets, off = at[:, columns].copy(), model.off_m[columns]
+    noise = _noise_m(model, track)
+    sure = SURE_M**2 / (SURE_M**2 + 3.0 * noise**2)
     for k, name in enumerate(known):
         m = model.digits.index(name)
         share = track.trust[:, k, None]
-        seen = np.where(share > 0.0, track.positions[:, k], 0.0)
-        targets[:, m] += share * (seen - targets[:, m])
+        apart = np.where(share > 0.0, track.positions[:, k] - targets[:, m], 0.0)
+        if noise:
+            apart = cone_filter(apart, taps_at(markers.rate_hz, COMPONENT_TAPS))
+        targets[:, m] += sure * share * apart
         off[m] = SURE_M
     shape = model.shape
     postures = HandFit(hand, shape).solved(
@@ -168,7 +172,8 @@ def foretell(
     else:
         taps = taps_at(rate_hz, COMPONENT_TAPS)
         values = [flat, model.angles]
-        how = _for_noise(model, roughness_of(track.positions))
+        ridge = float(np.hypot(model.regression.ridge_m, _noise_m(model, track)))
+        how = replace(model.regression, ridge_m=ridge)
         at, angles = through_components(how, samples, track.positions, track.trust, values, taps)
     return at.reshape(len(at), -1, 3), angles
 
@@ -195,13 +200,10 @@ def through_components(
     return [found.back(part) for found, part in zip(every, parts, strict=True)]
 
 
-def _for_noise(model: CaptureModel, rough_m: float) -> LocalRegression:
-    """Return the model's regression with a ridge for markers that are so rough."""
-    usual = float(model.provenance["roughness_m"])
-    if rough_m < NOISY * usual:
-        return model.regression
-    noise = (rough_m**2 - usual**2) ** 0.5
-    return replace(model.regression, ridge_m=float(np.hypot(model.regression.ridge_m, noise)))
+def _noise_m(model: CaptureModel, track: Tracked) -> float:
+    """Return the deviation of noise along an axis, metres; 0 where markers are hardly rougher."""
+    usual, rough = float(model.provenance["roughness_m"]), roughness_of(track.positions)
+    return 0.0 if rough < NOISY * usual else float((rough**2 - usual**2) ** 0.5)
 
 
 def _check_size(markers: Markers, root: InRoot, model: CaptureModel) -> None:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-import numpy as np
 import pytest
+from recorded_hand import CHOSEN, FILE, LEARNT
 
 from azee.capture.hand import Hand
 from azee.capture.markers import Markers
@@ -14,10 +12,6 @@ from azee.capture.places import root_markers
 from azee.capture.reading import read_markers
 from azee.capture.training import Poses, poses_of, train
 from azee_rig.rig import Rig
-
-FILE = Path(__file__).with_name("optical_markers.npz")
-LEARNT = 840
-CHOSEN = ("thumb_tip", "index_tip", "middle_tip", "ring_tip", "little_tip", "ring_middle")
 
 
 @pytest.fixture(scope="session")
@@ -42,8 +36,3 @@ def held_out(recorded: Markers) -> Markers:
 def model(poses: Poses, signer: Rig) -> CaptureModel:
     """A model of the first part, for six markers."""
     return train(poses, CHOSEN, Hand(signer, "R"))
-
-
-def away(made: np.ndarray, truth: np.ndarray) -> np.ndarray:
-    """How far markers are off, metres."""
-    return np.asarray(np.linalg.norm(made - truth, axis=-1))

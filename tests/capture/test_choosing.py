@@ -18,11 +18,14 @@ POSES, SEQUENCE = RANDOM.normal(size=(12, 5, 3)), RANDOM.normal(size=(9, 5, 3))
 
 def algorithm_1(count: int, *, printed: bool) -> tuple[tuple[int, ...], float]:
     """Algorithm 1 of Wheatland 2016, loop by loop."""
-    best, least = (), np.inf
+    best: tuple[int, ...] = ()
+    least = np.inf
     for chosen in combinations(range(5), count):
         total = 0.0
         for frame in SEQUENCE:
-            errors = [sum(np.linalg.norm(frame[m] - pose[m]) for m in chosen) for pose in POSES]
+            errors = [
+                sum(float(np.linalg.norm(frame[m] - pose[m])) for m in chosen) for pose in POSES
+            ]
             pose = POSES[int(np.argmin(errors))]
             scored = chosen if printed else range(5)
             total += np.mean([np.linalg.norm(frame[m] - pose[m]) for m in scored])

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import io
 from dataclasses import replace
+from pathlib import Path
+from typing import Literal, TypeAlias
 
 import numpy as np
 import pytest
-from conftest import CHOSEN, away
+from recorded_hand import CHOSEN, away
 
 from azee.capture.hand import TIP_SHARE
 from azee.capture.hand_over import hand_clip, hand_over
@@ -17,7 +19,9 @@ from azee.capture.reconstruction import Reconstruction, reconstruct
 from azee.capture.root_frame import into_root
 from azee.clip.clip import Clip
 
-JUMP_M = 0.005
+JUMP_M, NOISY_JUMP_M = 0.005, 0.008
+"""Noise is smoothed less at 20 frames a second than at the 100 of `benchmarks.capture`."""
+Fault: TypeAlias = Literal["dropped", "two dropped", "root dropped", "swapped", "noisy"]
 
 
 def truth_of(markers: Markers, model: CaptureModel) -> np.ndarray:
@@ -74,7 +78,7 @@ def test_last_joints_may_follow_those_before(held_out: Markers, model: CaptureMo
     np.testing.assert_allclose(coupled[:, last], TIP_SHARE * coupled[:, before], atol=1e-15)
 
 
-def spoilt(markers: Markers, how: str) -> Markers:
+def spoilt(markers: Markers, how: Fault) -> Markers:
     """A recording with a fault in the middle, a fifth of a second before frame 150."""
     at = np.array(markers.positions)
     a, b = (markers.names.index(name) for name in ("index_tip", "middle_tip"))
@@ -92,7 +96,7 @@ def spoilt(markers: Markers, how: str) -> Markers:
     return replace(markers, positions=at)
 
 
-SPOILT_M = {
+SPOILT_M: dict[Fault, float] = {
     "dropped": 0.001, "two dropped": 0.002, "root dropped": 0.003, "swapped": 1e-6, "noisy": 0.0015,
 }  # fmt: skip
 """Mean change of all markers in the frames concerned, at most."""
@@ -101,15 +105,16 @@ SPOILT_M = {
 @pytest.mark.slow
 @pytest.mark.parametrize("how", SPOILT_M)
 def test_bad_markers_change_little_and_make_no_jump(
-    how: str, made: Reconstruction, held_out: Markers, model: CaptureModel
+    how: Fault, made: Reconstruction, held_out: Markers, model: CaptureModel
 ) -> None:
     found = reconstruct(spoilt(held_out, how), model)
     change = found.foretold - made.foretold
     rows = slice(None) if how == "noisy" else slice(150, 160)
     assert np.linalg.norm(change[rows], axis=-1).mean() < SPOILT_M[how]
-    assert np.linalg.norm(np.diff(change, axis=0), axis=-1).max() < JUMP_M
+    most = NOISY_JUMP_M if how == "noisy" else JUMP_M
+    assert np.linalg.norm(np.diff(change, axis=0), axis=-1).max() < most
     fitted = np.diff(found.fitted - made.fitted, axis=0)
-    assert np.linalg.norm(fitted, axis=-1).max() < JUMP_M
+    assert np.linalg.norm(fitted, axis=-1).max() < most
 
 
 def test_no_marker_at_all_for_a_while_is_no_crash(held_out: Markers, model: CaptureModel) -> None:
@@ -141,7 +146,7 @@ def test_other_units_hands_and_rates_are_refused(held_out: Markers, model: Captu
         reconstruct(held_out.only(["hand_top", "hand_left", "hand_right"]), model)
 
 
-def test_a_model_is_the_same_bytes_and_reads_back(model: CaptureModel, tmp_path) -> None:
+def test_a_model_is_the_same_bytes_and_reads_back(model: CaptureModel, tmp_path: Path) -> None:
     first, second = io.BytesIO(), io.BytesIO()
     write_model(model, first)
     path = tmp_path / "m.npz"

@@ -52,8 +52,8 @@ def test_what_is_linear_in_the_markers_comes_out_exactly() -> None:
 def test_a_marker_without_trust_is_as_if_it_were_not_there() -> None:
     values = RANDOM.normal(size=(80, 4))
     trust = WHOLE * [1.0, 0.0]
-    lost = np.where(trust[:, :, None] > 0, FRAMES, np.nan)
-    found = LocalRegression().foretell(SAMPLES, lost, trust, values)
+    unseen = np.where(trust[:, :, None] > 0, FRAMES, np.nan)
+    found = LocalRegression().foretell(SAMPLES, unseen, trust, values)
     alone = LocalRegression().foretell(SAMPLES[:, :1], FRAMES[:, :1], WHOLE[:, :1], values)
     np.testing.assert_allclose(found, alone, atol=1e-9)
 

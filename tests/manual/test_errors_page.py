@@ -86,6 +86,7 @@ FILES = {
         {"language": "own", "source": "", "rules": {"own-coffee": COFFEE}}
     ).encode(),
     "broken/lexicon.json": b"{}",
+    "markers.trc": b"index_tip 1 2 3",
     "sign.npz": _sign(),
     "signs.db": _signs(),
     "shortcuts.txt": b":bien\n",

@@ -150,7 +150,8 @@ MESSAGES: list[dict[str, object]] = [
     {"kind": "compile", "number": 1, "file": "a.azee", "text": ":abre\n", "rig": "signer"},
     {"kind": "draft", "number": 1, "file": "b.azee", "text": ":abre\n", "digest": None},
     {"kind": "watch", "file": "a.azee", "digest": "0"},
-    *({"kind": "lsp", "message": call} for call in CALLS),
+    {"kind": "lsp", "message": CALLS[0]},
+    {"kind": "lsp", "message": CALLS[1]},
 ]
 
 

@@ -161,7 +161,7 @@ export class Score {
       class: `block ${block.kind} ${block.place ? 'own' : 'library'} ${state}`,
     });
     group.append(
-      svg('title', {}, `${block.title}  ${times}`),
+      svg('title', {}, `${block.title}, ${times}`),
       svg('rect', { x, y: y + 1, width: wide, height: ROW - 3, rx: 4 }),
     );
     if (text) group.append(svg('text', { x: x + 6, y: y + 17, 'aria-hidden': 'true' }, text));

@@ -26,7 +26,7 @@ check: $(READY) ## check format, lint and types and run the fast tests; use befo
 	@$(RUN) -m ruff check .
 	@$(RUN) -m mypy
 	@$(RUN) -m mypy $(wildcard $(addsuffix /**/*.py,$(TYPED)) $(addsuffix /*.py,$(TYPED)))
-	@HYPOTHESIS_PROFILE=quick $(RUN) -m pytest -q -n auto -m "not slow and not node and not browser"
+	@HYPOTHESIS_PROFILE=quick $(RUN) -m pytest -q -n auto --dist loadfile -m "not slow and not node and not browser"
 
 format: $(READY) ## format all files
 	@$(RUN) -m ruff format .

@@ -193,6 +193,7 @@ def animate(
 
     # 14. Make the clip, measure it and report.
     clip = _clip(score, rig, seconds, q, weights, lead_s)
+    penetration = PenetrationSearch(rig, dominant, schedule, clip.coordinates, seconds)
     excess, joint = limit_excess(q, rig.coordinates)
     report = MotionReport(
         rig=rig.name,
@@ -214,7 +215,7 @@ def animate(
         postures=planned.postures,
         blocks=tuple(block_times(schedule.all, planned.monitor.early_ends)),
         measure_peaks=partial(peaks, q, float(fps), rig.coordinates.names, lead_s),
-        measure_penetration=PenetrationSearch(rig, dominant, schedule, clip.coordinates, seconds),
+        measure_penetration=penetration,
         measure_likeness=partial(
             likeness,
             clip,
@@ -229,6 +230,7 @@ def animate(
         stretched=performance.stretched,
         extra_s=float(performance.extra_s),
         recordings=tuple(map(as_played, schedule.recorded)),
+        measure_fingers=penetration.between_fingers,
     )
     moments = {float(p.time) for p in planned.postures}
     moments |= {t for block in schedule.recorded for t in block.moments_s}

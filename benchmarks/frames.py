@@ -54,7 +54,7 @@ def row(sign: str, fps: float, report: MotionReport) -> Row:
     deep = {
         (" in ".join(p.pair), round(1e3 * p.depth_m))
         for p in report.clip_penetration
-        if p.on == "skin" and not p.intended and p.depth_m > TOLERATED_M
+        if not p.intended and p.depth_m > TOLERATED_M
     }
     fastest = max(report.peaks, key=lambda p: p.speed)
     return Row(

@@ -26,18 +26,20 @@ from azee.lexicon.reading import read_bytes
 from azee.lexicon.rule_text import rule_text
 from azee.lexicon.sample import sample_of
 from azee_grammar.diagnostic import AZeeError
-from azee_rig.chain import DIR, NRM
+from azee_rig.chain import DIR, NRM, Frames
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver.outcome import Outcome
 from benchmarks.lexicon_notation import Hand as SaidHand
 from benchmarks.lexicon_notation import Posture, Reader
+from benchmarks.lexicon_touch import gap_m
+from benchmarks.likeness_figures import FIGURES
 
 Array = NDArray[np.float64]
 ARCHIVE = Path(__file__).parents[1] / "lexicons/ngt/azee_ngt/ngt.zip"
 INSIDE_S = 0.05
 """How far inside a sign its first and last postures are looked at."""
-ANGLE_DEGREES, PLACE_M, TOUCH_M = 25.0, 0.03, 0.012
+ANGLE_DEGREES, PLACE_M, TOUCH_M, GAP_M = 25.0, 0.03, 0.012, 0.001
 TRUNK_DEGREES = 10.0
 OVERLAP_M = 0.003
 
@@ -65,9 +67,20 @@ BOUNDS = {
     "palm at the end, degrees": ANGLE_DEGREES,
     "place at the start, m": PLACE_M,
     "touch at the start, m": TOUCH_M,
+    "gap of touching skins, m": GAP_M,
     "trunk, degrees": TRUNK_DEGREES,
-    "overlap, m": OVERLAP_M,
+    "overlap of the body's skin, m": OVERLAP_M,
+    "overlap of one hand's fingers, m": OVERLAP_M,
 }
+LIKENESS = {
+    f"{figure.title}, {figure.unit}": figure
+    for figure in FIGURES
+    if figure.title in ("wrist between signs", "its acceleration", "arm joints")
+}
+"""Figures of likeness of which one sign has a value without life."""
+BOUNDS |= {what: figure.at_most for what, figure in LIKENESS.items() if figure.at_most}
+OVERLAPS = {"skin": "overlap of the body's skin, m", "capsules": "overlap of one hand's fingers, m"}
+"""What a report measures on: fingers of one hand on capsules, all else on the skin."""
 
 
 def signs_of(archive: Path) -> dict[str, bytes]:
@@ -111,9 +124,12 @@ def measure(
             figures.reasons[f"{constraint.kind}: {_kind(constraint.reason)}"] += 1
             figures.add("missed", 1, name)
     if overlap:
-        unmeant = [found.depth_m for found in report.clip_penetration if not found.intended]
-        figures.add("overlap, m", max(unmeant, default=0.0), name)
+        for on, what in OVERLAPS.items():
+            unmeant = [p.depth_m for p in report.clip_penetration if p.on == on and not p.intended]
+            figures.add(what, max(unmeant, default=0.0), name)
     figures.add("trunk, degrees", _trunk(done), name)
+    for what, figure in LIKENESS.items():
+        figures.add(what, max(figure.read(report.likeness), default=0.0), name)
     reader = Reader(text)
     if not reader.is_simple:
         return
@@ -161,22 +177,25 @@ def _compare(
 
 
 def _compare_place(
-    rig: Rig, frames: object, expected: SaidHand, side: str, name: str, figures: Figures
+    rig: Rig, frames: Frames, expected: SaidHand, side: str, name: str, figures: Figures
 ) -> None:
     if expected.place is not None:
-        palm = rig.sites[f"PA_{side}"].point(frames)  # type: ignore[arg-type]
+        palm = rig.sites[f"PA_{side}"].point(frames)
         meant = expected.place * rig.landmarks.arm_m + rig.landmarks.shoulder_middle
         off = np.where(np.isnan(meant), 0.0, palm - meant)
         figures.add("place at the start, m", float(np.linalg.norm(off)), name)
     if expected.touched:
         own = [
-            site.point(frames)  # type: ignore[arg-type]
+            site.point(frames)
             for key, site in rig.sites.items()
             if f"_{side}" in key and _is_of_hand(site.bone)
         ]
-        touched = [rig.sites[key].point(frames) for key in expected.touched]  # type: ignore[arg-type]
+        touched = [rig.sites[key].point(frames) for key in expected.touched]
         nearest = min(np.linalg.norm(a - b) for a in own for b in touched)
         figures.add("touch at the start, m", float(nearest), name)
+    if expected.touch is not None:
+        gap = gap_m(rig, frames, expected.touch, side)
+        figures.add("gap of touching skins, m", gap, name)
 
 
 def _is_of_hand(bone: str) -> bool:

@@ -14,6 +14,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.lexicon_touch import Touch
+
 Array = NDArray[np.float64]
 
 LETTERS = {
@@ -55,6 +57,35 @@ FACE_SITES = {
     "neck": ("NK", "NK_L", "NK_R"),
 }
 """Sites of the body of which a hand that touches there should touch one."""
+SKIN_SITES = FACE_SITES | {
+    "uppereyelid": ("EYE_L", "EYE_R"),
+    "lowereyelid": ("EYE_L", "EYE_R"),
+    "upperlip": ("MO", "MO_L", "MO_R"),
+    "lowerlip": ("MO", "MO_L", "MO_R"),
+    "underchin": ("CH", "CH_L", "CH_R", "NK"),
+    "headtop": ("HEAD", "HEAD_L", "HEAD_R"),
+    "head": ("FH", "TE_L", "TE_R", "HEAD_L", "HEAD_R"),
+    "shouldertop": ("SH_L", "SH_R"),
+    "shoulders": ("ST", "ST_L", "ST_R"),
+    "chest": ("ST", "ST_L", "ST_R", "ABST", "ABST_L", "ABST_R"),
+    "stomach": ("ABST", "ABST_L", "ABST_R"),
+    "belowstomach": ("AB", "AB_L", "AB_R"),
+}
+"""Sites about which the skin of a part of the body is."""
+FACE_RADIUS_M, TRUNK_RADIUS_M = 0.03, 0.08
+"""How far about its sites the skin of a part of the face reaches, and that of the trunk."""
+BODY_BONES = ("head", "neck", "back_1", "back_2", "clav_L", "clav_R", "arm_L", "arm_R")
+HAND_BONES = ("palm", "thumb", "index", "middle", "ring", "little")
+OWN_BONES = {
+    "palm": ("palm",),
+    "handback": ("palm",),
+    "thumbside": ("palm", "index"),
+    "pinkyside": ("palm", "little"),
+    "thumbball": ("palm", "thumb"),
+    "wristback": ("palm", "f_arm"),
+    "lowerarm": ("f_arm",),
+}
+"""Bones whose skin is a part of the hand."""
 
 
 @dataclass
@@ -66,6 +97,7 @@ class Hand:
     place: Array | None = None
     """Of the palm, in arms from the middle of the shoulder line; NaN where nothing is said."""
     touched: tuple[str, ...] = ()
+    touch: Touch | None = None
 
 
 @dataclass
@@ -82,7 +114,7 @@ class Posture:
             return None if vector is None else vector * MIRROR
 
         hands = {
-            name: Hand(seen(h.fingers), seen(h.palm), seen(h.place), h.touched)
+            name: Hand(seen(h.fingers), seen(h.palm), seen(h.place), h.touched, h.touch)
             for name, h in self.hands.items()
         }
         return Posture(hands, {"s": "L", "w": "R"})
@@ -155,7 +187,24 @@ class Reader:
         locations = [e for e in self._manual if e.tag == "location_bodyarm"]
         if len(locations) == 1 and not self._manual.findall("handconstellation"):
             self._locate(found, locations[0])
+        for name, touch in self._touches():
+            found.hands.setdefault(name, Hand()).touch = touch
         return found
+
+    def _touches(self) -> Iterator[tuple[str, Touch]]:
+        """Yield what each hand touches at the start."""
+        for element in self._manual:
+            if element.tag in ("location_bodyarm", "location_hand"):
+                for name in self._named:
+                    yield from _touch(name, element)
+            elif element.tag == "split_location":
+                for name, part in zip("sw", element, strict=False):
+                    yield from _touch(name, part)
+            elif element.tag == "handconstellation" and element.get("contact") == "touch":
+                parts = element.findall("location_hand")
+                own = _bones(parts[1]) if len(parts) == 2 else HAND_BONES
+                other = _bones(parts[0]) if len(parts) == 2 else HAND_BONES
+                yield "s", Touch(own, other, (), 0.0)
 
     def end(self) -> Posture | None:
         """Read the directions at the end; None where a movement may have changed them again."""
@@ -234,6 +283,31 @@ class Reader:
         for name in self._named:
             mirrored = self._both and name == "w"
             found.hands.setdefault(name, Hand()).place = place * (MIRROR if mirrored else 1.0)
+
+
+def _touch(name: str, element: ET.Element) -> Iterator[tuple[str, Touch]]:
+    """Yield the touch of one hand, s or w, at a part of the body or of the other hand."""
+    if element.get("contact") != "touch":
+        return
+    inner = element.find("location_hand")
+    own = HAND_BONES if inner is None else _bones(inner)
+    if element.tag == "location_hand":
+        yield name, Touch(own, _bones(element), (), 0.0)
+        return
+    places = [element.get("location"), element.get("second_location")]
+    sites = [site for place in places for site in SKIN_SITES.get(place or "", ())]
+    if sites:
+        face = places[0] in FACE_SITES or places[0] == "underchin"
+        radius = FACE_RADIUS_M if face else TRUNK_RADIUS_M
+        yield name, Touch(own, BODY_BONES, tuple(sites), radius)
+
+
+def _bones(part: ET.Element) -> tuple[str, ...]:
+    """Return the bones of a part of a hand: its digits, or those of a part of the palm."""
+    digits = part.get("digits")
+    if digits:
+        return tuple(HAND_BONES[int(digit)] for digit in digits)
+    return OWN_BONES.get(part.get("location") or "", HAND_BONES)
 
 
 def _directions(element: ET.Element) -> Iterator[tuple[str, tuple[str, str | None]]]:

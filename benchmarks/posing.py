@@ -54,6 +54,7 @@ def main(arguments: Sequence[str] = ()) -> None:
         print(f"{name:<44}{row}")
         if options.no_compile:
             continue
+        session.drop()
         there = place_of(session, handle)
         for proposal in exact(session.proposals()):
             off_m = np.linalg.norm(place_of(session.opened_with(proposal), handle) - there)

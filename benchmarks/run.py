@@ -27,8 +27,10 @@ MODULES = {
     "continuity": "benchmarks.continuity",
     "posing": "benchmarks.posing",
     "penetration": "benchmarks.penetration",
+    "spelled-pairs": "benchmarks.spelled_pairs",
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
+    "capture": "benchmarks.capture",
     "studio": "benchmarks.studio",
     "solver": "benchmarks.solver_bench",
 }

@@ -31,6 +31,7 @@ PAGE = """<!doctype html>
 body {{ font: 16px/1.45 system-ui, sans-serif; }}
 body {{ margin: 1.5rem auto; max-width: 76rem; padding: 0 1rem; }}
 main {{ display: grid; gap: 1.5rem; grid-template-columns: repeat(auto-fill, minmax(17rem, 1fr)); }}
+figure {{ margin: 0; }}
 pre {{ overflow: auto; max-height: 9rem; background: #f3f5f7; padding: .6rem; font-size: .85rem; }}
 </style>
 <h1>Examples</h1>

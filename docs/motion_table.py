@@ -43,7 +43,7 @@ def _row(name: str, mode: Mode, made: Compilation) -> str:
         (
             p.depth_m
             for p in report.clip_penetration
-            if p.on == "skin" and not p.intended and p.depth_m > SHOWS_M
+            if not p.intended and p.depth_m > SHOWS_M
         ),
         default=0.0,
     )

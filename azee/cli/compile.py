@@ -101,7 +101,11 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Refuse a text that names what the body lacks; by default that is left out.",
 )
-@click.option("--strict", is_flag=True, help="Exit with 3 if a constraint is out of tolerance.")
+@click.option(
+    "--strict",
+    is_flag=True,
+    help="Exit with 3 if a constraint is out of tolerance or a finger inside another.",
+)
 @click.option("--profile", is_flag=True, help="Tell where the time of the whole process goes.")
 @click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
 @click.option(
@@ -137,8 +141,8 @@ def compile_(
 ) -> int:
     """Compile FILE (`-` is standard input) to a signing body.
 
-    Exit codes: 0 done; 1 the input is at fault; 2 wrong use; 3 a constraint is out of tolerance
-    and --strict is given.
+    Exit codes: 0 done; 1 the input is at fault; 2 wrong use; 3 with --strict, if a
+    constraint is out of tolerance or a finger is inside another where no touch is asked for.
     """
     files = [*outputs, *([report] if report else [])]
     check_media(media, outputs)

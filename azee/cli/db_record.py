@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -86,8 +87,6 @@ def record(
 
 def _without_standing(made: Compilation) -> tuple[Clip, float, float]:
     """Return a clip from where the body leaves its rest until it is back; its attack and decay."""
-    from dataclasses import replace
-
     from azee.clip.edit import shifted
     from azee.motion.overlay.life import AFTER_S, BEFORE_S
 

@@ -17,6 +17,7 @@ from typing import NoReturn
 import click
 
 from azee.cli.blocks import blocks
+from azee.cli.capture import capture
 from azee.cli.check import check
 from azee.cli.clip import clip
 from azee.cli.compile import compile_
@@ -72,6 +73,7 @@ azee.add_command(rules)
 azee.add_command(manifest)
 azee.add_command(rig)
 azee.add_command(retarget)
+azee.add_command(capture)
 azee.add_command(repl)
 azee.add_command(play)
 azee.add_command(spell)

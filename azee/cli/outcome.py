@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from azee.cli.outputs import size_of
-from azee.quality.outcome import eases, longer, misses, outcome, shortfall, strains
+from azee.quality.outcome import eases, longer, misses, outcome, self_contact, shortfall, strains
 from azee.wording import counted
 
 if TYPE_CHECKING:
@@ -26,8 +26,9 @@ def outcome_lines(made: Compilation, written: Sequence[Path]) -> str:
         *longer(report),
         *map(_shortcut, made.shortcuts),
         *_iterations(made),
-        outcome(report) + (":" if fallen_short else ""),
+        outcome(report) + (":" if fallen_short or report.self_contact else ""),
         *map(_shortfall, fallen_short),
+        *(f"  {line}" for line in self_contact(report)),
         *strains(report),
         *([made.provenance.text] if made.provenance and made.provenance.applications else ()),
         *(f"wrote {path} ({size_of(path)})" for path in written),

@@ -85,9 +85,19 @@ def show_page(
     with tempfile.TemporaryDirectory(prefix="azee-player-") as scratch:
         news(f"the player is at {server.url} (Ctrl-C ends it)")
         if opens:
-            webbrowser.open(server.url)
+            webbrowser.open(_leading_to(server.url, Path(scratch)).as_uri())
         server.serve(player_app(offer, Path(scratch)), largest_body=200_000)
     return DONE
+
+
+def _leading_to(url: str, folder: Path) -> Path:
+    """Return a page in the user's own folder that leads to an address.
+
+    Arguments of a browser can be read by other users of the machine; its token must not.
+    """
+    page = folder / "open.html"
+    page.write_text(f'<!doctype html><meta http-equiv="refresh" content="0; url={url}">', "utf-8")
+    return page
 
 
 @dataclass(frozen=True, slots=True)

@@ -132,9 +132,14 @@ def _dragged(
     moves: Sequence[tuple[str, float, float, float]],
     morphs: Sequence[tuple[str, float]],
 ) -> list[Frame]:
-    frames = [session.drag(part, target, explain=True) for part, *target in drags]
-    frames += [session.drag_by(part, offset, explain=True) for part, *offset in moves]
-    return [*frames, *(session.drag(name, (weight,)) for name, weight in morphs)]
+    """Drag all, each on its way in steps as a hand would, and let go."""
+    for part, *target in drags:
+        session.drag_along(part, target)
+    for part, *offset in moves:
+        session.drag_along(part, session.beside(part, offset))
+    for name, weight in morphs:
+        session.drag(name, (weight,))
+    return session.drop()
 
 
 def _frame_json(frame: Frame) -> dict[str, Any]:

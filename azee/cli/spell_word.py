@@ -59,7 +59,8 @@ if TYPE_CHECKING:
 @click.option("--show", "shown", is_flag=True, help="Print the AZee expression, and do no more.")
 @click.option(
     "--strict", is_flag=True,
-    help="Exit with 3 if a constraint is out of tolerance or a character is left out.",
+    help="Exit with 3 if a constraint is out of tolerance, a finger inside another, or a "
+    "character is left out.",
 )  # fmt: skip
 @click.option("--quiet", is_flag=True, help="Say nothing but what is wrong.")
 def word(

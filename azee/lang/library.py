@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
-from functools import cache
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from azee.lang.lazy_rules import LazyRules
@@ -293,9 +292,30 @@ SHIPPED_RESOLVING = Resolving()
 """The scope that the shipped rules share; they are resolved once per process."""
 
 
-@cache
+_SHIPPED: dict[str, Library] = {}
+
+
 def shipped_library(name: str) -> Library:
     """Return a library that ships. In scope of its rules are itself, its libraries and the core."""
+    if name not in _SHIPPED:
+        _SHIPPED[name] = _indexed_shipped(name)
+    return _SHIPPED[name]
+
+
+def mistakes_in_shipped() -> Iterator[Diagnostic]:
+    """Yield the mistakes in what was read of the libraries that ship; there are none unless edited.
+
+    Each says which library it is in.
+    """
+    for name, library in [*_SHIPPED.items()]:
+        found = [*library.diagnostics]
+        found += (d for rule in library.namespace.read.values() for d in rule.diagnostics)
+        note = f"`'{name}` is a library that ships with azee; has its file been changed?"
+        for diagnostic in found:
+            yield replace(diagnostic, notes=(*diagnostic.notes, note))
+
+
+def _indexed_shipped(name: str) -> Library:
     folder = shipped() / name
     shelf = Shelf()
     library = Library(Namespace(name), index=shelf.index(folder))

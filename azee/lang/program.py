@@ -16,6 +16,7 @@ from azee.lang.library import (
     SHIPPED_RESOLVING,
     Librarian,
     define,
+    mistakes_in_shipped,
     shipped_library,
 )
 from azee.lang.library_folder import Shelf, definitions, own_name
@@ -80,8 +81,7 @@ class Program:
     def utterances(self) -> tuple[UtteranceScore, ...]:
         """All utterances of the text, evaluated. Raises: AZeeError: all its mistakes."""
         self._require_sound(self.check())
-        judged = (self._judged(item) for item in self.utterance_items())
-        return tuple(score for score, _ in judged if score is not None)
+        return self._evaluated
 
     def score(self, utterance: int | None = None, dominant: Side = Side.RIGHT) -> Score:
         """Return the score of one utterance, by its number from 1, or of all in sequence.
@@ -89,7 +89,7 @@ class Program:
         Raises: AZeeError: all mistakes in the text, or `no-utterance`.
         """
         self._require_sound(self.check(dominant))
-        scores = [u.score for u in self.utterances]
+        scores = [u.score for u in self._evaluated]
         if utterance is not None:
             if not 1 <= utterance <= len(scores):
                 raise AZeeError(self._no_utterance(utterance, len(scores)))
@@ -182,6 +182,12 @@ class Program:
         assert value is not None, "nothing was reported, so there is a value"
         return expr, value
 
+    @property
+    def _evaluated(self) -> tuple[UtteranceScore, ...]:
+        """The utterances that have a score."""
+        judged = (self._judged(item) for item in self.utterance_items())
+        return tuple(score for score, _ in judged if score is not None)
+
     def _judged(self, item: Utterance) -> tuple[UtteranceScore | None, tuple[Diagnostic, ...]]:
         """Evaluate an utterance, once."""
         if id(item) not in self._scores:
@@ -232,6 +238,7 @@ class Program:
             return code.evaluate(Machine(self.limits, self.scope.libraries, self.recordings), names)
         except Fault as problem:
             diagnostics += problem.diagnostics
+            diagnostics += mistakes_in_shipped()
             return None
 
     def _span_of(self, origin: Origin) -> Span | None:

@@ -116,7 +116,11 @@ def _runs(phrase: Phrase, name: str, told: Told) -> Iterator[_Run]:
         tuple(_placed(before, moment, site, stays=stays))
         for before, moment, site in zip(befores, moments, _sites(moments), strict=True)
     ]
-    moves = [move for move in phrase.moves if move.name == name and not _is_carried(move, phrase)]
+    moves = [
+        move
+        for move in phrase.moves
+        if move.name == name and not _is_carried(move, phrase) and not _goes_nowhere(move, phrase)
+    ]
     yield from _aspect(moments, shapes, [], phrase.duration_s)
     yield from _aspect(moments, turned, [], phrase.duration_s)
     yield from _aspect(moments, placed, moves, phrase.duration_s)
@@ -203,8 +207,19 @@ def _is_moving(moves: Sequence[Move], start_s: float, end_s: float) -> bool:
     return any(m.start_s < end_s - _SAME_S and m.end_s > start_s + _SAME_S for m in moves)
 
 
+def _goes_nowhere(move: Move, phrase: Phrase) -> bool:
+    """Whether a way ends where it begins: the hand stays."""
+    before, after = _ends(move, phrase)
+    if before is None or after is None or isinstance(move.way, CircleWay):
+        return False
+    return (before.hand.place, before.hand.site) == (after.hand.place, after.hand.site)
+
+
 def _is_carried(move: Move, phrase: Phrase) -> bool:
-    """Whether a hand goes with the other one, which it touches before and after."""
+    """Whether a hand goes with the other one, which it touches before and after.
+
+    Hands that circle round each other do not.
+    """
     before, after = _ends(move, phrase)
     if before is None or after is None or before.hand.place != after.hand.place:
         return False
@@ -212,7 +227,10 @@ def _is_carried(move: Move, phrase: Phrase) -> bool:
     if place is None or not place.is_at_hand:
         return False
     return any(
-        m.name == other(move.name) and abs(m.start_s - move.start_s) < _SAME_S for m in phrase.moves
+        m.name == other(move.name)
+        and abs(m.start_s - move.start_s) < _SAME_S
+        and (m.way == move.way or not isinstance(move.way, CircleWay))
+        for m in phrase.moves
     )
 
 

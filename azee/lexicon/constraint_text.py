@@ -10,9 +10,10 @@ from azee.lexicon.vectors import Vector, is_close, length
 
 WITHIN_DEGREES = 20
 WITHIN_M = 0.02
-"""How far off a hand may be that stays where it is, or that touches the trunk beside a site."""
-NEAR_SKIN_M = 0.01
-"""How far a hand may be from a point near the skin of the face, such as between two sites."""
+"""How far off a hand may be that stays where it is."""
+NEAR_TRUNK_M, NEAR_SKIN_M = 0.01, 0.003
+"""How far a hand that touches may be from a point between sites, of the trunk and elsewhere: such
+a point is near the skin, not on it, and a hand that may be farther off need not touch it."""
 _NAMED: dict[Vector, str] = {
     (0, 1, 0): "^up",
     (0, -1, 0): "^down",
@@ -47,7 +48,7 @@ def place_text(hand: Hand, name: str, *, stays: bool) -> list[str]:
     elif place.touches and len(place.sites) == 1 and is_close(place.offset, (0, 0, 0), _LEAST_M):
         text += " 'contact"
     elif place.touches:
-        text += f" 'within {number(WITHIN_M if place.is_at_trunk else NEAR_SKIN_M)}"
+        text += f" 'contact 'within {number(NEAR_TRUNK_M if place.is_at_trunk else NEAR_SKIN_M)}"
     elif place.is_space and stays:
         text += f" 'within {number(WITHIN_M)}"
     return [text]

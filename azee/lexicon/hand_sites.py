@@ -12,7 +12,7 @@ _WHOLE = {
     "palm": "PA",
     "handback": "H_BACK",
     "pinkyside": "H_EDGE",
-    "thumbball": "viande",
+    "thumbball": "T_BALL",
     "wristback": "WR",
     "lowerarm": "F_ARM",
     "elbow": "EL",

@@ -146,7 +146,8 @@ def _finger_by_finger(shape: HandShape, hand: str, told: Told) -> list[str]:
             bends[digit] = bend_of(bend)
     touching = _touching(shape, told)
     if touching is not None:
-        bends[touching] = _PINCHED["pinch12"]
+        if not _is_bent_pinch(shape):
+            bends[touching] = _PINCHED["pinch12"]
         return _touching_hand(shape, hand, bends, touching, spread)
     arguments = [] if hand == "s" else [f"'side = {hand}"]
     arguments += [f"'{_NAMES[d]} = {_bend(bend)}" for d, bend in bends.items() if bend != _CLOSED]
@@ -168,7 +169,7 @@ def _any_thumb(shape: HandShape, bends: Mapping[str, tuple[float, float]]) -> st
 
 
 def _touching(shape: HandShape, told: Told) -> str | None:
-    """Return the finger that the thumb touches, where that is no pinch of the index."""
+    """Return the finger that the thumb touches, where that is no usual pinch of the index."""
     crossing = shape.crossing
     if crossing is not None:
         pair = {crossing.digit, crossing.other}
@@ -177,13 +178,17 @@ def _touching(shape: HandShape, told: Told) -> str | None:
         if not _is_crossed(shape):
             told("crossing", "two fingers that touch are not written")
         return None
-    if (
-        shape.form.base not in _PINCHED
-        or _is_between_thumbs(shape)
-        or "2" in (shape.fingers or "2")
-    ):
+    if shape.form.base not in _PINCHED or _is_between_thumbs(shape):
         return None
+    if "2" in (shape.fingers or "2"):
+        return "2" if _is_bent_pinch(shape) else None
     return next((d for d in shape.fingers if d in _NAMES), None)
+
+
+def _is_bent_pinch(shape: HandShape) -> bool:
+    """Whether thumb and index touch, with fingers that are bent in another way than usual."""
+    bent = shape.form.bend or any(digit == "2" for digit, _ in shape.bends)
+    return shape.form.base in ("pinch12", "pinchall") and bool(bent) and not shape.fingers
 
 
 def _is_crossed(shape: HandShape) -> bool:

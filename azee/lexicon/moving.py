@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from azee.lexicon.clearance import cleared
 from azee.lexicon.codes import bulge, direction
 from azee.lexicon.hand_text import Told
-from azee.lexicon.hands import NO_FLIP, Hands, flip_of, flipped, flipped_axis
+from azee.lexicon.hands import NO_FLIP, Hands, changed, flip_of, flipped, flipped_axis
 from azee.lexicon.model import (
     Circle,
     FingerPlay,
@@ -146,11 +147,19 @@ class Mover:
         parts, time_s = [], 0.0
         for i, move in enumerate(moves):
             phrase, hands = self.perform(move, hands, sides, slow)
+            hands = self._before_body(hands, sides)
             parts.append(phrase.at(time_s))
             time_s += phrase.duration_s
             if i < len(moves) - 1:
                 parts.append(_moments(time_s, hands, sides))
         return joined(time_s, parts), hands
+
+    def _before_body(self, hands: Hands, sides: Sides) -> Hands:
+        """Return hands of which none ends in the body."""
+        before = changed(hands, lambda _, hand: cleared(hand), *sides)
+        if before != hands:
+            self.told("into-the-body", "a movement that would end in the body ends before it")
+        return before
 
     def _together(
         self, pairs: Sequence[tuple[Movement, Sides]], hands: Hands, slow: float
@@ -265,6 +274,7 @@ class Mover:
         time_s = 0.0
         for i in range(count):
             phrase, hands = self.perform(move.move, hands, sides, slow * (_AGAIN if i else 1))
+            hands = self._before_body(hands, sides)
             parts.append(phrase.at(time_s))
             time_s += phrase.duration_s
             last = i == count - 1

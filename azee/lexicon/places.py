@@ -88,7 +88,7 @@ class Place:
 
 TRUNK_SITES = frozenset(("ST", "ABST", "AB"))
 HAND_SITES = words(
-    "PA H_BACK H_EDGE WR WRi WRt viande I_TIP M_TIP R_TIP L_TIP T_TIP I_PAD M_PAD R_PAD L_PAD T_PAD"
+    "PA H_BACK H_EDGE WR WRi WRt T_BALL I_TIP M_TIP R_TIP L_TIP T_TIP I_PAD M_PAD R_PAD L_PAD T_PAD"
     " I_NA M_NA R_NA L_NA T_NA F_ARM F_ARMi EL ELi ARM"
 )
 
@@ -109,7 +109,7 @@ _FACE_SITES = {
     "tongue": "TO",
     "teeth": "MO",
     "chin": "CH",
-    "underchin": "CH",
+    "underchin": "CHu",
 }
 _BOTH_SIDES = frozenset(("EB", "EYE", "EAR", "LOBE", "CK", "SH"))
 """Sites that there are two of and none in the middle."""
@@ -126,9 +126,22 @@ _TRUNK_SITES = {
     "stomach": "ABST",
     "belowstomach": "AB",
 }
-_UNDER_CHIN: Vector = (0, -0.02, -0.02)
 _BESIDE_M = 0.03
-"""How far beside a part of the face a place beside it is."""
+"""How far beside a part of the face a place beside it is, where nothing touches."""
+_BESIDE = {
+    "forehead": "TE",
+    "eyebrows": "EBe",
+    "eyes": "CB",
+    "uppereyelid": "CB",
+    "lowereyelid": "CB",
+    "nose": "CK",
+    "nostrils": "CK",
+    "cheek": "CB",
+    "lips": "CDL",
+    "upperlip": "CDL",
+    "lowerlip": "CDL",
+}
+"""Sites of the skin beside parts of the face."""
 
 
 def other(hand: str) -> str:
@@ -138,15 +151,26 @@ def other(hand: str) -> str:
 
 def body_place(where: OnBody, hand: str = "s") -> Place:
     """Return the place that is meant for one hand; left and right are those of the signer."""
-    first = _one(where.at, where.side, where.contact, hand)
+    at, second = where.at, where.second or where.at
     if where.second is None and where.second_side is None:
-        return first
-    second = _one(where.second or where.at, where.second_side, where.contact, hand)
-    return _middle(first, second)
+        return _one(at, where.side, where.contact, hand)
+    if (at in FACE) != (second in FACE) and not {at, second} & ARM and where.contact != "touch":
+        above = _space(at or "chest", where.side, where.contact, hand)
+        return _middle(above, _space(second or "chest", where.second_side, where.contact, hand))
+    first = _one(at, where.side, where.contact, hand)
+    return _middle(first, _one(second, where.second_side, where.contact, hand))
 
 
 def apart(place: Place) -> Place:
-    """Return the place of the strong hand, where two hands share a place in space."""
+    """Return the place of the strong hand, where two hands share a place in the middle.
+
+    Hands that touch the body are at the sites of their own sides, if it has such sites there.
+    """
+    if any(site.hand is not None for site in place.sites):
+        return place
+    if place.touches:
+        own = (replace(s, hand="s") if s.name in _SIDED else s for s in place.sites)
+        return replace(place, sites=tuple(own))
     return replace(place, offset=plus(place.offset, (-APART_M, 0, 0)))
 
 
@@ -170,10 +194,12 @@ def _one(at: str | None, side: str | None, contact: str | None, hand: str) -> Pl
         return Place((Site(_ARM_SITES[at], other(hand)),), touches=contact in ("touch", None))
     if contact == "touch":
         return _skin(at or "chest", side, hand)
-    return _space(at or "chest", side, contact)
+    return _space(at or "chest", side, contact, hand)
 
 
-def _space(at: str, side: str | None, contact: str | None) -> Place:
+def _space(at: str, side: str | None, contact: str | None, hand: str) -> Place:
+    if side is None and _FACE_SITES.get(at) in _BOTH_SIDES:
+        side = "right_at" if hand == "s" else "left_at"
     sideways = {"at": AT_SIDE_M, "beside": BESIDE_M}.get((side or "").rpartition("_")[2])
     x = 0.0 if sideways is None else sideways[contact] * _sign(side)
     return Place(offset=(x, HEIGHT_M[at], FORWARD_M[contact]))
@@ -191,12 +217,14 @@ def _skin(at: str, side: str | None, hand: str) -> Place:
 
 def _face(at: str, side: str | None, contact: str | None, hand: str) -> Place:
     site = _sited(_FACE_SITES[at], side, hand)
-    offset = _UNDER_CHIN if at == "underchin" else ZERO
-    sign = _sign(side)
-    if (side or "").endswith("_beside"):
-        offset = plus(offset, (sign * _BESIDE_M, 0, 0))
+    offset: Vector = ZERO
+    sign, beside = _sign(side), (side or "").endswith("_beside")
     if contact in ("touch", None):
+        if beside and at in _BESIDE:
+            site = Site(_BESIDE[at], "w" if sign > 0 else "s")
         return Place((site,), offset, touches=True)
+    if beside:
+        offset = plus(offset, (sign * _BESIDE_M, 0, 0))
     away = OFF_FACE_M[contact]
     outward = -1 if site.hand == "s" else 1
     if site.name in ("EAR", "LOBE"):

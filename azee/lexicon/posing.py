@@ -72,7 +72,7 @@ class Posing:
                 site = usual_site(hand.shape, "w", touches=place.touches)
             return hand.put(site, place)
         place = body_place(where, name)
-        if self.symmetry is not None and place.is_space and not (where.side or where.second_side):
+        if self.symmetry is not None and not (where.side or where.second_side):
             place = apart(place)
         return hand.put(self._own(where.own, name, hand, touches=place.touches), place)
 

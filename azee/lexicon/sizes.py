@@ -27,7 +27,24 @@ APART_M = 0.16 * ARM_M
 """How far from the middle each of two hands is, where nothing says on which side."""
 HEIGHT_M = {
     "headtop": 0.69 * ARM_M,
+    "forehead": 0.58 * ARM_M,
+    "eyebrows": 0.53 * ARM_M,
+    "eyes": 0.49 * ARM_M,
+    "uppereyelid": 0.49 * ARM_M,
+    "lowereyelid": 0.48 * ARM_M,
+    "ear": 0.46 * ARM_M,
+    "nose": 0.43 * ARM_M,
+    "cheek": 0.42 * ARM_M,
     "head": 0.41 * ARM_M,
+    "nostrils": 0.41 * ARM_M,
+    "earlobe": 0.41 * ARM_M,
+    "upperlip": 0.38 * ARM_M,
+    "lips": 0.37 * ARM_M,
+    "tongue": 0.37 * ARM_M,
+    "teeth": 0.37 * ARM_M,
+    "lowerlip": 0.36 * ARM_M,
+    "chin": 0.31 * ARM_M,
+    "underchin": 0.27 * ARM_M,
     "neck": 0.13 * ARM_M,
     "shouldertop": 0.08 * ARM_M,
     "shoulders": 0.0,
@@ -35,7 +52,11 @@ HEIGHT_M = {
     "stomach": -0.50 * ARM_M,
     "belowstomach": -0.66 * ARM_M,
 }
-"""How high above the shoulder line a place in space is."""
+"""How high above the shoulder line a place in space is.
+
+Parts of the face are as high as on the reference signer; they count in space where a place is
+between one of them and a part of the trunk.
+"""
 OFF_FACE_M = {"close": 0.16 * ARM_M, "armextended": 0.62 * ARM_M}
 """How far off the face a place before it is."""
 NEAR_M = 0.04

@@ -10,9 +10,10 @@ people do not lean for what their arms can reach, and compiling would not lean e
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ from azee.posing.sites import SiteMap
 from azee_rig.rig import Rig
 from azee_solver import kinematics
 from azee_solver.anatomy import Anatomy, Part, anatomy
+from azee_solver.binding import Binding
 from azee_solver.collisions import Obstacles, Overlap
 from azee_solver.comfort import MARGIN_RAD
 from azee_solver.constraint import Constraint, Morph, Place
@@ -36,6 +38,7 @@ from azee_solver.relaxed import RelaxedProblem
 from azee_solver.sequence import GroupSequence
 from azee_solver.solve import solve
 from azee_solver.task import Task
+from azee_solver.tolerance import PAPER
 from azee_solver.widening import least_reach
 
 Array = NDArray[np.float64]
@@ -43,10 +46,10 @@ Array = NDArray[np.float64]
 OPTIONS = SolveOptions(far=False, patience=0, inertia=8.0, explain=False)
 """From where the body is, without a search. With inertia 8 a posture is near the one that compiling
 finds after half a second; with 30 as along a path (ADR 26) elbows lag behind by seconds."""
-YIELDING = 0.01
+YIELDING = 0.001
 """Factor of the weight of what a drag cannot be met with."""
 DEEPER_M = 5e-4
-"""An overlap that grows by less from one frame to the next is the same."""
+"""An overlap that is deeper by less than it was at the instant is the same."""
 TOUCH_M = 0.02
 """A point so near to a site of the skin may be touched there."""
 AHEAD = (0.0, 0.0, 1.0)
@@ -81,12 +84,10 @@ class DragSolver:
         self._linked: dict[frozenset[Handle], tuple[frozenset[int], tuple[TimedTask, ...]]] = {}
         self._sites: dict[frozenset[Handle], SiteMap] = {}
 
-    def solve(
-        self, goals: Mapping[Handle, Target], start: Array, *, explain: bool = False
-    ) -> Dragged:
+    def solve(self, goals: Mapping[Handle, Target], start: Array) -> Dragged:
         """Return the posture for all goals, found from a posture (V,).
 
-        Args: goals: where each handle should be. explain: find out why handles miss; takes longer.
+        Args: goals: where each handle should be.
         """
         began = time.thread_time()
         free, linked = self.linked(frozenset(goals))
@@ -94,14 +95,45 @@ class DragSolver:
         skeletal = {h: c for h, c in asked.items() if not self._is_facial(c)}
         beside = ik_tasks_at(linked, self.instant.time)
         q, overlaps = self._followed(list(skeletal.values()), beside, start, free)
-        if self._entered(overlaps, start, skeletal.values()):
+        if overlaps:
             kept = [self._kept(c, start) for c in skeletal.values()]
             q, overlaps = self._followed(kept, beside, start, free)
-            if self._entered(overlaps, start, kept):
+            if overlaps:
                 q, overlaps = np.array(start), []
         spent_s = time.thread_time() - began
-        reasons = self._reasons(skeletal, beside, q, free) if explain else {}
-        return Dragged(q, self._residuals(asked, q), tuple(overlaps), reasons, spent_s)
+        return Dragged(q, self._residuals(asked, q), tuple(overlaps), {}, spent_s)
+
+    def agreed(self, goals: Mapping[Handle, Target], start: Array) -> Dragged:
+        """Return the posture that compiling would find for goals and all that is in force.
+
+        It is up to 1 cm and 5° farther from what was dragged than `start`, a posture (V,): where
+        the rest of the text leaves no comfortable posture, compiling eases constraints (ADR 43). If
+        it would be farther, the posture stays, and the reasons say what is in the way.
+        """
+        began = time.thread_time()
+        binding = self.instant.evaluator.binding
+        tasks = [t for t in self.instant.tasks if not _any_replaces(goals, t, binding)]
+        asked = {handle: self._constraint(handle, target) for handle, target in goals.items()}
+        skeletal = {h: c for h, c in asked.items() if not self._is_facial(c)}
+        if not skeletal:
+            return Dragged(start, dict.fromkeys(goals, 0.0), (), {}, time.thread_time() - began)
+        moved = frozenset().union(*map(self._own, goals), *(t.moves for t in tasks))
+        report = solve(
+            self._rig,
+            [*_tasks(skeletal.values()), *ik_tasks_at(tasks, self.instant.time)],
+            dominant=binding.dominant,
+            start=start,
+            reference=self._reference(moved),
+            options=replace(OPTIONS, inertia=0.0, precise=False, explain=True),
+        )
+        q = np.array(report.coordinates)
+        said = {id(c.task.constraint): c.reason for c in report.constraints if c.reason}
+        reasons = {h: said[id(c)] for h, c in asked.items() if id(c) in said}
+        overlaps = self._too_deep(self._moving(report.penetration, moved))
+        before, after = self._residuals(asked, start), self._residuals(asked, q)
+        if any(after[h] > before[h] + PAPER.of(c) for h, c in skeletal.items()):
+            q, after, overlaps = start, before, []
+        return Dragged(q, after, tuple(overlaps), reasons, time.thread_time() - began)
 
     def _followed(
         self,
@@ -125,7 +157,7 @@ class DragSolver:
             solution = sequence.solve(reach, solution)
         q = np.clip(solution.q, self._rig.coordinates.lower, self._rig.coordinates.upper)
         found = self._moving(moment.body.obstacles.overlaps(q), free)
-        return q, [o for o in found if o.depth_m > OPTIONS.overlap_m]
+        return q, self._too_deep(found)
 
     def _moment(self, tasks: Sequence[Task], start: Array, free: frozenset[int]) -> Moment:
         fixed = frozenset(range(len(start))) - free
@@ -148,37 +180,23 @@ class DragSolver:
         lower = np.minimum(coordinates.lower + short, start)
         return lower, np.maximum(coordinates.upper - short, start)
 
-    def _reasons(
-        self,
-        asked: Mapping[Handle, Constraint],
-        beside: Sequence[Task],
-        q: Array,
-        free: frozenset[int],
-    ) -> dict[Handle, str]:
-        """Find out why handles miss their targets, by the whole solver."""
-        report = solve(
-            self._rig,
-            [*_tasks(asked.values()), *beside],
-            dominant=self.instant.evaluator.binding.dominant,
-            start=q,
-            reference=self._reference(free),
-            options=replace(OPTIONS, explain=True, fixed=frozenset(range(len(q))) - free),
-        )
-        said = {id(c.task.constraint): c.reason for c in report.constraints if c.reason}
-        return {h: said[id(c)] for h, c in asked.items() if id(c) in said}
+    def _too_deep(self, overlaps: Iterable[Overlap]) -> list[Overlap]:
+        """Return the overlaps that are deeper than is tolerated, and than at the instant itself."""
+        was = self._depths
+        tolerated = OPTIONS.overlap_m
+        return [
+            o
+            for o in overlaps
+            if o.depth_m > max(tolerated, was.get((o.first, o.second), 0.0) + DEEPER_M)
+        ]
 
-    def _entered(
-        self, overlaps: Sequence[Overlap], start: Array, asked: Iterable[Constraint]
-    ) -> bool:
-        """Whether a part that moves has gone deeper into another than it was."""
-        if not overlaps:
-            return False
-        binding = self.instant.evaluator.binding
-        before = Obstacles(binding, self.anatomy, [*asked, *self._others]).overlaps(start)
-        was = {(o.first, o.second): o.depth_m for o in before}
-        return any(
-            o.depth_m > was.get((o.first, o.second), OPTIONS.overlap_m) + DEEPER_M for o in overlaps
-        )
+    @cached_property
+    def _depths(self) -> dict[tuple[str, str], float]:
+        """How deep parts lie in each other at the instant itself."""
+        constraints = [task.constraint for task in self.instant.tasks]
+        obstacles = Obstacles(self.instant.evaluator.binding, self.anatomy, constraints)
+        found = obstacles.overlaps(self.instant.q)
+        return {(o.first, o.second): o.depth_m for o in found}
 
     def _kept(self, constraint: Constraint, start: Array) -> Constraint:
         """Return what is asked of a posture that may stay where it is.
@@ -192,10 +210,6 @@ class DragSolver:
         frames = kinematics.frames(self._rig.chain, start)
         residual, _ = evaluator.residual(constraint, frames, start)
         return replace(constraint, within_m=float(residual) / evaluator.scale + DEEPER_M)
-
-    @property
-    def _others(self) -> Iterator[Constraint]:
-        return (task.constraint for task in self.instant.tasks)
 
     def _moving(self, overlaps: Iterable[Overlap], free: frozenset[int]) -> list[Overlap]:
         """Return those overlaps in which a part is that coordinates move."""
@@ -218,11 +232,7 @@ class DragSolver:
         free = frozenset().union(*map(self._own, handles))
         trunk = self.anatomy.of(Part.TRUNK) - free
         binding = self.instant.evaluator.binding
-        left = [
-            task
-            for task in self.instant.tasks
-            if not any(is_replaced(task.constraint, handle, binding) for handle in handles)
-        ]
+        left = [t for t in self.instant.tasks if not _any_replaces(handles, t, binding)]
         linked: list[TimedTask] = []
         while found := [task for task in left if (task.moves | task.reads) & free]:
             linked += found
@@ -279,6 +289,10 @@ class DragSolver:
             else float(evaluator.residual(constraint, frames, q)[0])
             for handle, constraint in asked.items()
         }
+
+
+def _any_replaces(handles: Iterable[Handle], task: TimedTask, binding: Binding) -> bool:
+    return any(is_replaced(task.constraint, handle, binding) for handle in handles)
 
 
 def _tasks(asked: Iterable[Constraint]) -> list[Task]:

@@ -48,6 +48,8 @@ from azee_solver.geometry import Side
 
 Array = NDArray[np.float64]
 
+STEP_M = 0.01
+"""How far a hand goes between two frames at a third of a metre a second."""
 MET_M, MET_RAD = 1e-3, math.radians(0.5)
 """What counts as there."""
 
@@ -111,6 +113,7 @@ class PosingSession:
         self._solver = DragSolver(self.instant)
         self._goals: dict[Handle, Target] = {}
         self._q: Array = np.array(self.instant.q)
+        self._dropped = False
 
     @classmethod
     def open(
@@ -134,43 +137,62 @@ class PosingSession:
 
     # Dragging ---------------------------------------------------------------------------------
 
-    def drag(
-        self, handle: Handle | str, target: Sequence[float], *, explain: bool = False
-    ) -> Frame:
+    def drag(self, handle: Handle | str, target: Sequence[float]) -> Frame:
         """Drag a handle to a target, and return what the screen shows then.
 
         Args: target: of a site or of the gaze a point, (3,) metres in the world; of a bone a
-            direction, (3,); of a morph a weight, (1,). explain: say why it misses; takes longer.
+            direction, (3,); of a morph a weight, (1,).
         Raises: AZeeError: cannot-pose: it is no such target.
         """
         known = self.handle(handle)
         self._goals[known] = checked_target(
             str(known), target, weight=isinstance(known, MorphHandle)
         )
-        done = self._solve(explain=explain)
-        return self._frame(known, done)
+        return self._frame(known, self._moved(self._solver.solve(self._goals, self._q)))
 
-    def drag_by(
-        self, handle: Handle | str, offset: Sequence[float], *, explain: bool = False
-    ) -> Frame:
-        """Drag a site by an offset, (3,) metres, from where it is now."""
+    def beside(self, handle: Handle | str, offset: Sequence[float]) -> tuple[float, ...]:
+        """Return the point beside where a site is now, by an offset, (3,) metres.
+
+        Raises: AZeeError: cannot-pose: the handle is no site.
+        """
         known = self.handle(handle)
         if not isinstance(known, SiteHandle):
-            raise AZeeError(
-                cannot_pose(f"`{known}` is no site, and only sites are moved by metres")
-            )
+            reason = f"`{known}` is no site, and only sites are moved by metres"
+            raise AZeeError(cannot_pose(reason))
+        offset = checked_target(str(known), offset, weight=False)
+        return tuple((self._place(known) + np.array(offset)).tolist())
+
+    def drag_along(self, handle: Handle | str, target: Sequence[float]) -> Frame:
+        """Drag a handle to a target in steps of at most a centimetre, as a hand would go there."""
+        known = self.handle(handle)
+        if isinstance(known, SiteHandle):
+            there = np.array(checked_target(str(known), target, weight=False))
+            start = self._place(known)
+            steps = math.ceil(float(np.linalg.norm(there - start)) / STEP_M)
+            for k in range(1, steps):
+                self.drag(known, (start + (there - start) * k / steps).tolist())
+        return self.drag(known, target)
+
+    def _place(self, handle: SiteHandle) -> Array:
+        """Where a site is now, (3,) metres in the world."""
         frames = kinematics.frames(self._rig.chain, self._q)
-        there = self.instant.evaluator.site(known.site, frames)
-        if len(offset) != 3:
-            raise AZeeError(cannot_pose(f"`{known}` is moved by three numbers"))
-        return self.drag(known, (there + np.array(offset)).tolist(), explain=explain)
+        return self.instant.evaluator.site(handle.site, frames)
+
+    def drop(self) -> list[Frame]:
+        """Let go: find the posture that compiling would find, and why handles miss their targets.
+
+        Returns: what the screen shows then, for each handle that was dragged.
+        """
+        done = self._moved(self._solver.agreed(self._goals, self._q))
+        self._dropped = True
+        return [self._frame(handle, done) for handle in self._goals]
 
     def release(self, handle: Handle | str) -> None:
         """Forget what was dragged with a handle; the posture is found anew."""
         self._goals.pop(self.handle(handle), None)
         self._q = np.array(self.instant.q)
         if self._goals:
-            self._solve()
+            self._moved(self._solver.solve(self._goals, self._q))
 
     def handle(self, handle: Handle | str) -> Handle:
         """Return a handle that was given by its text. Raises: AZeeError: there is none."""
@@ -186,16 +208,14 @@ class PosingSession:
         """The posture now, (V,) radians."""
         return np.array(self._q)
 
-    def _solve(self, *, explain: bool = False) -> Dragged:
-        done = self._solver.solve(self._goals, self._q, explain=explain)
-        self._q = done.q
+    def _moved(self, done: Dragged) -> Dragged:
+        self._q, self._dropped = done.q, False
         return done
 
     def _frame(self, handle: Handle, done: Dragged) -> Frame:
         place = None
         if isinstance(handle, SiteHandle):
-            frames = kinematics.frames(self._rig.chain, done.q)
-            x, y, z = self.instant.evaluator.site(handle.site, frames).tolist()
+            x, y, z = self._place(handle).tolist()
             place = (x, y, z)
         return Frame(
             self._rig,
@@ -239,7 +259,7 @@ class PosingSession:
     # Writing ----------------------------------------------------------------------------------
 
     def proposals(self, handle: Handle | str | None = None) -> list[Proposal]:
-        """Return what could be written for a handle, or for all that were dragged; best first.
+        """Let go, and return what could be written for a handle, or for all; the best first.
 
         Raises: AZeeError: cannot-pose: nothing was dragged.
         """
@@ -249,6 +269,8 @@ class PosingSession:
             goals = {h: t for h, t in goals.items() if h == known}
         if not goals:
             raise AZeeError(cannot_pose("nothing was dragged"))
+        if not self._dropped:
+            self.drop()
         sites = {h: self._solver.sites(frozenset({h})) for h in goals}
         proposing = Proposing(self.text, self.instant, self.q, sites)
         found = [p for h, target in goals.items() for p in proposing.proposals(h, target)]
@@ -277,13 +299,13 @@ def _written_at(score: Score, proposal: Proposal) -> Interval | None:
     task = proposal.spot.task
     for found in flatten(score).requirements:
         origin = found.constraint.origin
-        if task is not None and proposal.spot.wants != "constraint":
-            if (found.path, origin) == (task.path, task.constraint.origin):
+        if not is_replaced(found.constraint, proposal.handle, proposal.binding):
+            continue
+        if task is not None:
+            if found.path == task.path:
                 return found.interval
-        elif origin and first <= origin.line <= last:
-            same = is_replaced(found.constraint, proposal.handle, proposal.binding)
-            if same and origin.file == source.name:
-                return found.interval
+        elif origin and origin.file == source.name and first <= origin.line <= last:
+            return found.interval
     return None
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +14,12 @@ from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.schedule import TaskSchedule
 from azee.motion.tasks.timed_task import EarlyEnd, TimedTask
+from azee.score.interval import Interval
 from azee_rig.rig import Rig
+from azee_solver.constraint import Place
 from azee_solver.evaluate import evaluator as evaluator_of
-from azee_solver.geometry import Side
-from azee_solver.penetration import mesh_penetration
+from azee_solver.geometry import Side, SitePoint
+from azee_solver.penetration import Contact, meant_contact, mesh_penetration
 
 Array = NDArray[np.float64]
 
@@ -26,7 +29,9 @@ enclose all of it."""
 LEAST_M = 0.001
 """Shallower penetration of the skin is not reported."""
 FINGERS_LEAST_M = 0.003
-"""Fingers of one hand are measured on capsules alone; what is shallower would not be seen."""
+"""Shallower penetration of fingers of one hand would not be seen."""
+TOUCH_S = 0.15
+"""What touches because the score asks for it may be as near this long before and after."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,8 +81,8 @@ def peaks(q: Array, fps: float, names: Sequence[str], lead_s: float) -> tuple[Co
 class Penetration:
     """One part of the body inside another for a while, on the score's time line.
 
-    time_s: when it is deepest. pair: the two parts. on: what was measured, skin or capsules.
-    intended: the score asks for a touch there.
+    time_s: when it is deepest. pair: the two parts. depth_m: on the skin. intended: the
+    score asks for a touch there.
     """
 
     start_s: float
@@ -85,7 +90,6 @@ class Penetration:
     time_s: float
     pair: tuple[str, str]
     depth_m: float
-    on: str
     intended: bool
 
     def as_json(self) -> dict[str, object]:
@@ -96,7 +100,6 @@ class Penetration:
             "time_s": self.time_s,
             "pair": [*self.pair],
             "depth_m": self.depth_m,
-            "on": self.on,
             "intended": self.intended,
         }
 
@@ -115,28 +118,28 @@ class PenetrationSearch:
     times_s: Array
 
     def __call__(self) -> tuple[Penetration, ...]:
-        """Find penetration in every frame."""
+        """Find penetration in every frame, on the skin where capsules are near or overlap."""
+        avoidance = self._avoidance()
+        overlaps = avoidance.overlaps
+        no_touch = overlaps.axis_distances(())
+        depths = np.vstack([overlaps.depths(part, no_touch) for part in _chunks(self.coordinates)])
+        on_skin = _on_skin(self.rig, self.coordinates, self.times_s, avoidance, depths)
+        return tuple(sorted((*on_skin, *self.between_fingers()), key=lambda p: (p.start_s, p.pair)))
+
+    def between_fingers(self) -> tuple[Penetration, ...]:
+        """Find fingers of one hand inside each other in every frame."""
+        avoidance = self._avoidance()
+        overlaps = avoidance.overlaps
+        pairs = np.flatnonzero(overlaps.same_hand)
+        no_touch = overlaps.axis_distances(())
+        depths = np.vstack([overlaps.depths(q, no_touch, pairs) for q in _chunks(self.coordinates)])
+        found = _between_fingers(self, avoidance, pairs, depths)
+        return tuple(sorted(found, key=lambda p: (p.start_s, p.pair)))
+
+    def _avoidance(self) -> CollisionAvoidance:
         evaluator = evaluator_of(self.rig, self.dominant)
         overlaps = CapsuleOverlaps(evaluator)
-        avoidance = CollisionAvoidance(evaluator, self.schedule, IntervalIndex(()), overlaps)
-        return penetrations(self.rig, self.coordinates, self.times_s, avoidance)
-
-
-def penetrations(
-    rig: Rig, q: Array, times_s: Array, avoidance: CollisionAvoidance
-) -> tuple[Penetration, ...]:
-    """Find penetration in every frame: on capsules, and where these are near, on the skin.
-
-    Args: q: (T, V). times_s: (T,) on the score's time line.
-    """
-    overlaps = avoidance.overlaps
-    no_touch = overlaps.axis_distances(())
-    depths = np.vstack([overlaps.depths(part, no_touch) for part in _chunks(q)])
-    found = [
-        *_on_skin(rig, q, times_s, avoidance, depths),
-        *_between_fingers(times_s, avoidance, depths),
-    ]
-    return tuple(sorted(found, key=lambda p: (p.start_s, p.pair)))
+        return CollisionAvoidance(evaluator, self.schedule, IntervalIndex(()), overlaps)
 
 
 def _on_skin(
@@ -159,7 +162,7 @@ def _on_skin(
             span = float(times_s[run[0]]), float(times_s[run[-1]]), float(times_s[worst])
             intended = _is_intended(avoidance, pair, float(times_s[worst]))
             names = (found[0].limb, found[0].body)
-            yield Penetration(*span, names, found[0].depth_m, "skin", intended)
+            yield Penetration(*span, names, found[0].depth_m, intended)
 
 
 def _region(part: str) -> str:
@@ -168,18 +171,61 @@ def _region(part: str) -> str:
 
 
 def _between_fingers(
-    times_s: Array, avoidance: CollisionAvoidance, depths: Array
+    search: PenetrationSearch,
+    avoidance: CollisionAvoidance,
+    pairs: NDArray[np.int64],
+    depths: Array,
 ) -> Iterator[Penetration]:
-    """Yield what penetrates what among the fingers of one hand, on capsules."""
-    overlaps = avoidance.overlaps
-    deep = overlaps.same_hand & (depths.max(axis=0) > FINGERS_LEAST_M)
-    for pair in np.flatnonzero(deep).tolist():
-        for run in _runs(depths[:, pair] > FINGERS_LEAST_M):
-            worst = run[int(depths[run, pair].argmax())]
+    """Yield which fingers of one hand are in each other, once per stretch of frames.
+
+    Capsules, (T, P), tell where to look; what counts is the skin. About a touch that the score asks
+    for, skin that yields is no penetration.
+    """
+    overlaps, times_s = avoidance.overlaps, search.times_s
+    digits: dict[tuple[str, str], list[int]] = {}
+    for column, pair in enumerate(pairs.tolist()):
+        first, second = sorted(_digit(name) for name in overlaps.names(pair))
+        digits.setdefault((first, second), []).append(column)
+    for names, columns in digits.items():
+        deepest = depths[:, columns].max(axis=1)
+        for run in _runs(deepest > FINGERS_LEAST_M):
+            worst = run[int(deepest[run].argmax())]
             span = float(times_s[run[0]]), float(times_s[run[-1]]), float(times_s[worst])
-            intended = _is_intended(avoidance, pair, float(times_s[worst]))
-            depth = float(depths[worst, pair])
-            yield Penetration(*span, overlaps.names(pair), depth, "capsules", intended)
+            depth, intended = _in_skin(search, avoidance, worst, names)
+            if depth > FINGERS_LEAST_M:
+                yield Penetration(*span, names, depth, intended)
+
+
+def _in_skin(
+    search: PenetrationSearch, avoidance: CollisionAvoidance, frame: int, digits: tuple[str, str]
+) -> tuple[float, bool]:
+    """Return how deep the skins of two digits are in each other, and whether that is a touch."""
+    q, time_s = search.coordinates[frame], float(search.times_s[frame])
+    evaluator = avoidance.evaluator
+    frames = evaluator.rig.chain.frames(q)
+    span = Interval(
+        Fraction(time_s - TOUCH_S).limit_denominator(10**6),
+        Fraction(time_s + TOUCH_S).limit_denominator(10**6),
+    )
+    touches = [
+        meant_contact(evaluator, frames, task.constraint)
+        for task in search.schedule.in_force.overlapping(span)
+        if isinstance(task.constraint, Place) and isinstance(task.constraint.point, SitePoint)
+    ]
+
+    def deepest(contacts: Sequence[Contact]) -> float:
+        found = mesh_penetration(search.rig, q, contacts, digits)
+        return max((p.depth_m for p in found if {p.limb, p.body} == {*digits}), default=0.0)
+
+    unmeant = deepest(touches)
+    if unmeant > FINGERS_LEAST_M or not touches:
+        return unmeant, False
+    return deepest(()), True
+
+
+def _digit(name: str) -> str:
+    """Return the digit of a capsule or bone such as `thumb_R_3`."""
+    return name[: name.rindex("_")]
 
 
 def block_times(

@@ -106,8 +106,9 @@ class MotionReport:
     blocks: their times, and until when their constraints hold. peaks: largest speed, acceleration
     and jerk of the coordinates that move. measure_penetration: measures it in every frame.
     measure_likeness: takes the figures of likeness. stretched: what takes longer than the score
-    says. extra_s: by how much all does. recordings: signs that are played. Other times are those of
-    the score as performed.
+    says. extra_s: by how much all does. recordings: signs that are played. measure_fingers:
+    measures the fingers of each hand in every frame. Other times are those of the score as
+    performed.
     """
 
     rig: str
@@ -129,6 +130,7 @@ class MotionReport:
     stretched: tuple[Stretch, ...] = ()
     extra_s: float = 0.0
     recordings: tuple[PlayedRecording, ...] = ()
+    measure_fingers: Callable[[], tuple[Penetration, ...]] = tuple
 
     @cached_property
     def constraints(self) -> tuple[ConstraintResult, ...]:
@@ -146,19 +148,24 @@ class MotionReport:
         return self.measure_penetration()
 
     @cached_property
+    def self_contact(self) -> tuple[Penetration, ...]:
+        """Fingers of one hand that are inside each other though the score asks for no touch."""
+        return tuple(p for p in self.measure_fingers() if not p.intended)
+
+    @cached_property
     def likeness(self) -> Likeness:
         """How like a person's the movement is; measured when first asked for."""
         return self.measure_likeness()
 
     @property
     def met(self) -> bool:
-        """Whether every constraint is within its tolerance."""
-        return all(c.met for c in self.constraints)
+        """Whether every constraint is within its tolerance, and no finger inside another."""
+        return all(c.met for c in self.constraints) and not self.self_contact
 
     @property
     def missed(self) -> bool:
-        """Whether a constraint is missed: neither met nor eased for comfort."""
-        return any(c.missed for c in self.constraints)
+        """Whether a constraint is neither met nor eased, or a finger is inside another."""
+        return any(c.missed for c in self.constraints) or bool(self.self_contact)
 
     @property
     def strains(self) -> tuple[tuple[float, Strain], ...]:
@@ -208,6 +215,7 @@ class MotionReport:
             "limits": {"max_excess_rad": self.max_excess_rad, "joint": self.excess_joint},
             "penetration": [row for p in self.postures for row in _penetration(p)],
             "clip_penetration": [p.as_json() for p in self.clip_penetration],
+            "self_contact": [p.as_json() for p in self.self_contact],
             "blocks": [{**row} for row in self.blocks],
             "coordinates": [p.as_json() for p in self.peaks],
             "likeness": self.likeness.as_json(),

@@ -9,12 +9,24 @@ from azee.wording import counted
 from azee_solver.outcome import Outcome
 
 if TYPE_CHECKING:
+    from azee.quality.measures import Penetration
     from azee.quality.motion_report import ConstraintResult, MotionReport
     from azee_solver.outcome import Strain
 
 
 def outcome(report: MotionReport) -> str:
-    """Return `all 16 constraints are met`, `1 of 16 constraints is out of tolerance`."""
+    """Return `all 16 constraints are met`, `1 of 16 constraints is out of tolerance`.
+
+    Fingers inside each other are added: `…, a finger is inside another`.
+    """
+    inside = len({p.pair for p in report.self_contact})
+    added = ["", ", a finger is inside another"]
+    return _constraints(report) + (
+        added[inside] if inside < 2 else f", {inside} pairs of fingers are inside each other"
+    )
+
+
+def _constraints(report: MotionReport) -> str:
     everything, missed, eased = len(report.constraints), len(misses(report)), len(eases(report))
     if not everything:
         return "no constraint to meet"
@@ -38,6 +50,20 @@ def longer(report: MotionReport) -> list[str]:
     are, in_all = ("is", "") if many == 1 else ("are", " in all")
     longer = f"{counted(many, 'transition')} {are} longer than the score says"
     return [f"{longer}, by {report.extra_s:.2f} s{in_all}; --timing exact keeps its times"]
+
+
+def self_contact(report: MotionReport) -> list[str]:
+    """Say which fingers are inside each other, how deep and when: a line for each pair."""
+    worst: dict[tuple[str, str], Penetration] = {}
+    for found in report.self_contact:
+        known = worst.get(found.pair)
+        if known is None or known.depth_m < found.depth_m:
+            worst[found.pair] = found
+    return [
+        f"{p.start_s:.2f}–{p.end_s:.2f} s: {p.pair[0]} and {p.pair[1]} are "
+        f"{amount(p.depth_m, 'm')} inside each other"
+        for p in worst.values()
+    ]
 
 
 def misses(report: MotionReport) -> list[ConstraintResult]:

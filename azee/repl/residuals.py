@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from azee.quality.outcome import amount, eases, misses, outcome, shortfall, strains
+from azee.quality.outcome import (
+    amount,
+    eases,
+    misses,
+    outcome,
+    self_contact,
+    shortfall,
+    strains,
+)
 from azee.repl.ink import Ink, Line, cut, width
 from azee.wording import counted
 from azee_solver.outcome import Outcome
@@ -17,7 +25,7 @@ if TYPE_CHECKING:
 def summary(report: MotionReport, took_s: float) -> Iterator[Line]:
     """Tell how long solving took, and name the constraints that are out of tolerance."""
     missed = misses(report)
-    ink = Ink.BAD if missed else Ink.GOOD if report.constraints else Ink.FAINT
+    ink = Ink.BAD if report.missed else Ink.GOOD if report.constraints else Ink.FAINT
     keys = counted(len(report.postures), "key posture")
     yield ((Ink.FAINT, f"solved in {took_s:.2f} s: {keys}, "), (ink, outcome(report)))
     for result in (*missed, *eases(report)):
@@ -29,6 +37,8 @@ def summary(report: MotionReport, took_s: float) -> Iterator[Line]:
             ),
             (Ink.PLAIN, f" {shortfall(result)}"),
         )
+    for line in self_contact(report):
+        yield ((Ink.BAD, f"  {line}"),)
     for strain in strains(report):
         yield ((Ink.FAINT, f"  {strain}"),)
 

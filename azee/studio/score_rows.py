@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from azee.export.score_layout import title
-from azee.score.score import Blank, Group, Hold, Key, Score
+from azee.score.score import Blank, Group, Hold, Key, Recorded, Score
 from azee_solver.constraint import Origin
 from azee_solver.notation import constraint_text
 
@@ -70,6 +70,8 @@ def _kind(score: Score) -> str:
             return "hold"
         case Blank():
             return "blank"
+        case Recorded():
+            return "recorded"
         case Group(arrangement=arrangement):
             return arrangement.value
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 _RULES = Path(__file__).parent / "rules"
@@ -12,6 +13,7 @@ def shipped() -> Path:
     return _RULES
 
 
+@cache
 def shipped_names() -> tuple[str, ...]:
     """Return the names of the shipped libraries, as they are written after `use '`."""
     folders = (folder for folder in _RULES.iterdir() if folder.is_dir())

@@ -17,7 +17,7 @@ from azee_solver.anatomy import Anatomy, Part
 from azee_solver.binding import Binding
 from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Place
-from azee_solver.geometry import Site, SitePoint, WorldPoint
+from azee_solver.geometry import Site, SitePoint, WorldPoint, sites_of
 from azee_solver.kinematics import Parting
 
 if TYPE_CHECKING:
@@ -171,13 +171,19 @@ def _changed(clear: _Clearance, free: frozenset[int], unsettled: frozenset[int])
 
 
 def _meant(constraints: Iterable[Constraint]) -> Iterator[tuple[Site, Site, bool]]:
-    """Sites that are meant to touch, and whether the text calls that a contact."""
+    """Sites that are meant to touch, and whether the text calls that a contact.
+
+    A contact at a point between sites or beside one is a contact with each of them.
+    """
     places = [c for c in constraints if isinstance(c, Place)]
     for place in places:
         if isinstance(place.point, SitePoint):
             yield place.site, place.point.site, place.contact
         elif isinstance(place.point, WorldPoint):
             for site in place.point.touching:
+                yield place.site, site, True
+        elif place.contact:
+            for site in sorted(sites_of(place.point), key=str):
                 yield place.site, site, True
     for a, b in combinations(places, 2):
         if a.point == b.point and a.distance_m == b.distance_m == 0.0:

@@ -385,6 +385,11 @@ def depends_on(expr: Vector | Point | Path) -> frozenset[Bone | Site]:
     return frozenset(found)
 
 
+def sites_of(point: Point) -> frozenset[Site]:
+    """Sites whose places a point is made of."""
+    return frozenset(part for part in depends_on(point) if isinstance(part, Site))
+
+
 def _collect(node: object, found: set[Bone | Site]) -> None:
     if isinstance(node, Was):
         return  # that posture is over

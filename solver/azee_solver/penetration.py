@@ -7,7 +7,7 @@ beyond the first are tested, for the first are webbed to it and to each other.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
@@ -91,19 +91,26 @@ class _Regions:
 
 
 def mesh_penetration(
-    rig: Rig, q: Array, contacts: Sequence[Contact] = ()
+    rig: Rig, q: Array, contacts: Sequence[Contact] = (), parts: Collection[str] | None = None
 ) -> tuple[Penetration, ...]:
     """Return where arms and digits enter trunk, head, the other arm or each other, deepest first.
 
     Args: q: (V,) coordinates of one posture. contacts: where touching is meant.
+        parts: those that matter, such as `thumb_R`; all by default.
     """
     regions = _regions(rig)
     vertices = rig.skin(rig.pose(q))
-    surfaces = {name: vertices[triangles] for name, triangles in regions.surfaces.items()}
+    surfaces = {
+        name: vertices[triangles]
+        for name, triangles in regions.surfaces.items()
+        if parts is None or name in parts
+    }
     along = vertices @ DIRECTIONS
     slabs = {n: (along[c].min(axis=0), along[c].max(axis=0)) for n, c in regions.corners.items()}
     found = []
     for name, limb in regions.limbs.items():
+        if parts is not None and name not in parts:
+            continue
         for body, surface in surfaces.items():
             if body == name or (name.startswith("arm_") and body.endswith(f"_{limb.side}")):
                 continue

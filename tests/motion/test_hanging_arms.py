@@ -56,4 +56,4 @@ def test_no_hand_enters_the_hip_towards_which_the_trunk_leans(text: str, body: s
     report = perform(evaluate_expression(text).score, load_rig(body)).report
     assert [c.subject for c in report.constraints if c.missed] == []
     deep = [p for p in report.clip_penetration if not p.intended and p.depth_m > 3 * MILLIMETRE]
-    assert [p for p in deep if p.on == "skin"] == []
+    assert deep == []

@@ -1,6 +1,7 @@
 // node player_page.mjs URL PICTURES
 // Uses the page of `azee play --page` in headless Chromium as a person does: types, plays, turns the
 // view, errs, changes speed and body, quits. Prints what it saw.
+import axe from 'axe-core';
 import { opened, played } from './chromium.mjs';
 
 const [url, pictures] = process.argv.slice(2);
@@ -61,6 +62,10 @@ try {
   await page.locator('#told li').waitFor();
   seen.mistake = await page.locator('#told li').allTextContents();
   await picture('mistake');
+  await page.evaluate(axe.source);
+  seen.inaccessible = await page.evaluate(async () => (await globalThis.axe.run()).violations
+    .filter(({ impact }) => ['serious', 'critical'].includes(impact))
+    .map(({ id, nodes }) => `${id}: ${nodes.map(node => node.html).join(' ')}`));
   await page.fill('#text', ':tree\n');
   await page.click('#play');
   await state('waiting');

@@ -27,9 +27,16 @@ FOLLOWS_M = 0.005
 
 
 @pytest.fixture(scope="module")
-def at_rest(signer: Rig) -> PosingSession:
-    """A body of which nothing is asked but a finger in space."""
+def session(signer: Rig) -> PosingSession:
     return PosingSession.open(SPACE, 0.3, signer)
+
+
+@pytest.fixture
+def at_rest(session: PosingSession) -> PosingSession:
+    """A body of which nothing is asked but a finger in space, and of which nothing was dragged."""
+    for handle in session.goals:
+        session.release(handle)
+    return session
 
 
 def place_of(session: PosingSession, handle: str) -> Array:
@@ -64,7 +71,6 @@ def check(session: PosingSession, frames: list[Frame]) -> None:
 
 
 def test_a_site_follows_and_the_solver_is_fast(at_rest: PosingSession) -> None:
-    at_rest.release("@I_TIP(s)")
     frames = dragged(at_rest, "@I_TIP(s)", around, 20)
     assert max(frame.miss for frame in frames) < FOLLOWS_M
     check(at_rest, frames)
@@ -90,7 +96,6 @@ def test_for_ten_seconds_a_hand_follows(text: str, at_s: float, handle: str, sig
 
 
 def test_a_hand_that_is_dragged_into_the_body_slides_along_it(at_rest: PosingSession) -> None:
-    at_rest.release("@PA(s)")
     chest = np.array([0.0, 1.25, -0.1])
     frames = dragged(at_rest, "@PA(s)", lambda start, k: start + k * (chest - start), 25)
     check(at_rest, frames)
@@ -101,7 +106,6 @@ def test_a_hand_that_is_dragged_into_the_body_slides_along_it(at_rest: PosingSes
 
 
 def test_beyond_reach_the_arm_points_there_and_says_why(at_rest: PosingSession) -> None:
-    at_rest.release("@I_TIP(s)")
     target = (-0.2, 1.3, 2.0)
     for _ in range(15):
         frame = at_rest.drag("@I_TIP(s)", target)
@@ -109,7 +113,7 @@ def test_beyond_reach_the_arm_points_there_and_says_why(at_rest: PosingSession) 
     assert frame.place is not None
     shoulder = at_rest.instant.evaluator.rig.landmarks.shoulder_middle
     assert np.linalg.norm(np.array(frame.place) - shoulder) > 0.5
-    told = at_rest.drag("@I_TIP(s)", target, explain=True)
+    (told,) = at_rest.drop()
     assert told.reason is not None
     assert "out of reach" in told.summary
 
@@ -126,11 +130,9 @@ def test_beyond_reach_the_arm_points_there_and_says_why(at_rest: PosingSession) 
 def test_bones_and_the_gaze_are_turned(
     handle: str, target: tuple[float, ...], at_rest: PosingSession
 ) -> None:
-    at_rest.release("@I_TIP(s)")
     frame = None
     for _ in range(4):
         frame = at_rest.drag(handle, target)
-    at_rest.release(handle)
     assert frame is not None
     assert frame.miss < math.radians(1.0)
 
@@ -142,8 +144,6 @@ def test_fingers_bend_and_the_face_moves(at_rest: PosingSession) -> None:
     assert bent - straight > math.radians(30)
     smile = at_rest.drag("'AU12", (0.7,)).unit_weights
     assert smile != at_rest.drag("'AU12", (0.0,)).unit_weights
-    for handle in ("'index_bend s", "'AU12"):
-        at_rest.release(handle)
 
 
 def _upwards(start: Array, share: float) -> Array:

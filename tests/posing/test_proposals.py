@@ -38,9 +38,9 @@ def place_of(session: PosingSession, handle: str) -> Array:
 
 
 def dragged_by(session: PosingSession, handle: str, offset: Sequence[float]) -> Array:
-    """Drag a site in ten steps; where it ends."""
-    for _ in range(10):
-        session.drag_by(handle, [x / 10 for x in offset])
+    """Drag a site; where it is when it is dropped."""
+    session.drag_along(handle, session.beside(handle, offset))
+    session.drop()
     return place_of(session, handle)
 
 

@@ -42,6 +42,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.assist": {"azee_grammar", "azee.lang", "azee.score"} | DECLARATIONS,
     "azee.clip": {"azee_rig", "numpy"},
     "azee.signs": {"azee.clip", "azee.score", "azee_rig", "numpy", "sqlalchemy", "alembic"},
+    "azee.capture": {"azee.clip", "azee.export.files", "azee_rig", "azee_solver", "numpy", "scipy"},
+    "azee.capture.c3d_file": {"azee.capture", "c3d", "numpy"},
+    "azee.capture.figures": {"azee.capture", "azee.export.files", "numpy", "matplotlib"},
     "azee.motion.tasks": {"azee.clip", "azee.score", "azee_solver", "azee_rig", "numpy"},
     "azee.motion.curves": {
         *("azee.clip", "azee.score", "azee.motion.tasks"),

@@ -14,6 +14,7 @@ TEXT = "key 1\n    cstr\n        place @I_TIP(s) @CH\n        orient 'nrm !palm(
 HEAVY = (
     "PIL",
     "alembic",
+    "c3d",
     "lark",
     "matplotlib",
     "pympi",
@@ -46,6 +47,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
     ("repl", "--help"): set(),
     ("repl",): {"lark"},
     ("rig", "--help"): set(),
+    ("capture", "reconstruct", "--help"): set(),
     ("corpus", "stats", "--help"): set(),
     ("db", "add", "--help"): set(),
     ("db", "create", "--quiet", "--db", "signs.db"): {"alembic", "sqlalchemy"},

@@ -86,7 +86,9 @@ def test_a_palm_lies_as_two_knuckles_do_else_as_its_skin_does(
 
 
 @pytest.mark.parametrize("metre", [1.0, 100.0])
-@pytest.mark.parametrize(("moved_m", "posed"), [(0.0, False), (-0.001, False), (-0.01, True)])
+@pytest.mark.parametrize(
+    ("moved_m", "posed"), [(0.0, False), (-0.001, False), (-0.01, True), (0.01, True)]
+)
 def test_nodes_that_stand_elsewhere_than_they_were_bound_are_a_posture(
     tmp_path: Path, metre: float, moved_m: float, posed: bool
 ) -> None:

@@ -19,6 +19,7 @@ from azee.formats import SUFFIXES
 from azee.signs import recordings
 from azee.signs.database import SignDatabase
 from azee.signs.recordings import SignRecordings
+from azee.signs.sign import Sign
 from azee.signs.tables import MOTION
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
@@ -68,7 +69,7 @@ def test_a_movement_is_read_once_and_when_it_is_played(
     read: list[str] = []
     clip = SignDatabase.clip
 
-    def counted(self: SignDatabase, sign: recordings.Sign, rig: Rig) -> Clip:
+    def counted(self: SignDatabase, sign: Sign, rig: Rig) -> Clip:
         read.append(sign.identity.name)
         return clip(self, sign, rig)
 
@@ -187,7 +188,7 @@ def test_a_text_becomes_a_sign_and_comes_back_as_a_recording(db: str, signer: Ri
         (["compile", "-e", "recorded 'b"], "error[damaged-sign]: the movement of `b` is damaged"),
         (["play", "b"], "error[damaged-sign]: the movement of `b` is damaged"),
         (["play", "a", "--db", "none.db"], "error[sign-database]: `none.db`"),
-        (["db", "record", "a", "-e", ":bien :bien"], "error[too-many-arguments]"),
+        (["db", "record", "a", "-e", ":bien :bien"], "error[expected-argument-name]"),
         (["rig", "calibration", "none.bvh"], "error[cannot-read]: there is no file `none.bvh`"),
         (["score", "-e", ":bien", "--shortcuts", "none.txt"], "error[cannot-read]"),
     ],

@@ -20,7 +20,7 @@ from azee_solver.binding import Binding
 from azee_solver.collisions import Obstacles, segment_distance
 from azee_solver.constraint import Constraint, Place
 from azee_solver.evaluate import evaluator
-from azee_solver.geometry import FreePoint, Side, Site, SitePoint
+from azee_solver.geometry import Between, FreePoint, Side, Site, SitePoint, Vec, VTranslate
 from azee_solver.penetration import meant_contact, mesh_penetration
 from azee_solver.winding import distances, winding_numbers
 
@@ -238,6 +238,18 @@ def test_two_sites_at_one_place_are_meant_to_touch() -> None:
     assert obstacles().reach[n] - met.reach[n] == pytest.approx(0.02 + 0.001)
     apart = obstacles(Place(Site("PA", S), point, 0.1), Place(Site("PA", W), point))
     assert apart.reach[n] == obstacles().reach[n]
+
+
+def test_a_contact_between_sites_is_one_with_each_of_them() -> None:
+    chest, chin = (SitePoint(Site(name)) for name in ("ST", "CH"))
+    between = Between(VTranslate(chest, Vec(0.0, 0.01, 0.0)), chin, 0.5)
+    plain = obstacles()
+    called = obstacles(Place(Site("PA", S), between, contact=True, within_m=0.02))
+    each = [obstacles(Place(Site("PA", S), p, contact=True)).reach for p in (chest, chin)]
+    np.testing.assert_allclose(called.reach, np.minimum(*each))
+    assert (called.reach < plain.reach).any()
+    uncalled = obstacles(Place(Site("PA", S), between, within_m=0.02))
+    np.testing.assert_array_equal(uncalled.reach, plain.reach)
 
 
 def test_overlaps_are_reported_deepest_first() -> None:

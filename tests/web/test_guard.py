@@ -86,7 +86,7 @@ def ask(
     exchange = Exchange(
         [{"type": "http.request", "body": p, "more_body": i < last} for i, p in enumerate(parts)]
     )
-    scope = _scope("http", path, [*headers.items()]) | {"method": method}
+    scope = {**_scope("http", path, [*headers.items()]), "method": method}
     asyncio.run(_app()(scope, exchange.receive, exchange.send))
     return exchange
 
@@ -142,7 +142,7 @@ def test_a_browser_that_opens_the_page_sends_no_origin_but_changes_need_one() ->
 def test_a_header_that_is_there_twice_is_refused() -> None:
     scope = _scope("http", f"/{TOKEN}/", [("host", HOST), ("host", "evil.example")])
     exchange = Exchange([{"type": "http.request"}])
-    asyncio.run(_app()(scope | {"method": "GET"}, exchange.receive, exchange.send))
+    asyncio.run(_app()({**scope, "method": "GET"}, exchange.receive, exchange.send))
     assert exchange.status == 400
 
 
@@ -183,7 +183,7 @@ def test_any_request_is_answered_and_only_with_the_token_inside(
 ) -> None:
     exchange = Exchange([{"type": "http.request", "body": b"x"}])
     kept = [(k, v) for k, v in headers if v.isascii() or k != "content-length"]
-    scope = _scope("http", f"/{path}", kept) | {"method": method}
+    scope = {**_scope("http", f"/{path}", kept), "method": method}
     asyncio.run(_app()(scope, exchange.receive, exchange.send))
     if exchange.status < 400:
         assert path.startswith(f"{TOKEN}/")

@@ -221,7 +221,8 @@ OPERATORS = (
     _native(
         "place",
         "The site lies at the point. `'dist` is metres along the outward normal of a target site, "
-        "in any direction from another point; `'contact` lets the surfaces touch.",
+        "in any direction from another point; `'contact` lets the surfaces touch, at a point "
+        "between sites those about each of them.",
         (_SITE, _POINT),
         _place,
         "place @I_TIP(s) @CH 'dist .02",

@@ -1,18 +1,10 @@
 """Collision avoidance: where a movement leads through the body, via points lead it round.
 
-Between keys a limb moves straight in joint space, which may lead a hand through the chest or a
-thumb through a finger. There the limbs that carry the overlapping capsules, and that nothing needs
-at that time, get via points (see `ViaPoint`): the smallest offsets of their coordinates with which
-all pairs of capsules keep their distance on the whole stretch between the keys. Keys and their
-times stay as they are.
-
-The offset c, (n,), is found by damped least squares. With d_tp(c) the depth of pair p at sample t,
-a_tp the depth that it may have there, and m = `OFFSET_WEIGHT_M`, it minimises
-
-    Σ_tp max(0, d_tp(c) − a_tp)² + m² |c|²
-
-in Levenberg–Marquardt steps −(JᵀJ + (m² + λ) I)⁻¹ (Jᵀe + m² c), e being the positive parts and J
-their derivatives by c.
+Between keys a limb moves straight in joint space, which may lead a hand through the chest. There
+the limbs that carry the overlapping capsules, and that nothing needs at that time, get via points
+(see `ViaPoint`): the smallest offsets of their coordinates with which all pairs of capsules keep
+their distance on the whole stretch between the keys (see `OffsetSearch`). Keys and their times stay
+as they are. Fingers of one hand pass each other by rules of their own (see `FingerPassage`).
 """
 
 from __future__ import annotations
@@ -26,9 +18,10 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.clip.spline import minimum_jerk
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
+from azee.motion.curves.finger_passage import FingerPassage
 from azee.motion.curves.movement import Movement
+from azee.motion.curves.offset_search import CONSIDERED_M, OffsetSearch
 from azee.motion.curves.via_points import ViaPoint
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import CARRIERS
@@ -44,9 +37,9 @@ PASSES = 4
 SAMPLE_S = 1 / 30
 """Time between the postures in which collisions are searched."""
 SAMPLES_AT_ONCE = 240
-DEEP_M, DEEP_FINGERS_M = 0.005, 0.003
-"""Pairs that overlap deeper collide; shallower ones, and fingers of one hand that are, the
-projection pushes apart. A hand that moves *through* a body or another hand it cannot lead round."""
+DEEP_M = 0.005
+"""Pairs that overlap deeper collide; shallower ones the projection pushes apart. A hand that moves
+*through* a body or another hand it cannot lead round."""
 LEAST_APPROACH_M = 0.002
 """Pairs that come nearer than at the ends of the stretch by less than this do not collide."""
 TOUCH_WINDOW_S = Fraction(1, 2)
@@ -54,24 +47,17 @@ TOUCH_WINDOW_S = Fraction(1, 2)
 
 FEWEST_SAMPLES, MOST_SAMPLES = 8, 20
 """Samples on a stretch for which an offset is sought, its ends not counted."""
-CONSIDERED_M = 0.025
-"""Pairs that are farther apart in all samples are not considered."""
 SHORT_S, LONG_S, LEAST_CLEARANCE_SHARE = 0.15, 0.45, 0.1
 """In stretches of `LONG_S` pairs keep the whole clearance, in those of `SHORT_S` this share of it,
 since a wide offset in a short time is a jerk."""
-TAPER = 0.35
-"""Share of the stretch in which pairs that are near at its end reach their clearance."""
 ALLOWED_SHORTFALL = 0.25
 """The search ends when no pair lacks more than this share of the least clearance."""
 WORTHWHILE = 0.7
 """An offset is used if it leaves at most this share of the largest shortfall."""
-MAX_ITERATIONS, MAX_STEP_RAD = 40, 0.15
-LEAST_GAIN = 0.05
-"""A step that lowers the sum by less than this share is the last one."""
+MAX_STEP_RAD = 0.15
 MOST_ADDED_RAD_S, MOST_ADDED_RAD_S2 = math.radians(90.0), math.radians(800.0)
 """Largest speed and acceleration that an offset adds to a coordinate. Without a bound an arm at
 rest was once swung aside by 111° in .2 s, out of the way of a hand that came there later."""
-DAMPING = 0.03
 OFFSET_WEIGHT_M = 0.015
 """An offset of one radian costs as much as this overlap in one sample."""
 
@@ -94,6 +80,8 @@ class CollisionAvoidance:
 
     def avoid_collisions(self, movement: Movement) -> Movement:
         """Return a movement with via points where limbs that are free could avoid a collision."""
+        fingers = FingerPassage(self.overlaps, self.limbs_in_use)
+        movement = replace(movement, via_points=tuple(fingers.via_points(movement)))
         unsuccessful: set[_FreeLimbs] = set()
         times = np.arange(movement.start_s - SAMPLE_S, movement.end_s + SAMPLE_S, SAMPLE_S)
         for _ in range(PASSES):
@@ -139,7 +127,7 @@ class CollisionAvoidance:
 
     def _colliding_pairs(self, q: Array, times: Array) -> dict[int, NDArray[np.int64]]:
         """Return the pairs that collide in moving postures, and the rows in which they do."""
-        deep = np.where(self.overlaps.same_hand, DEEP_FINGERS_M, DEEP_M)
+        deep = np.where(self.overlaps.same_hand, math.inf, DEEP_M)
         found: dict[int, list[int]] = {}
         moving = np.flatnonzero(np.any(np.diff(q, axis=0, prepend=q[:1]) != 0.0, axis=1))
         for rows in np.array_split(moving, max(1, len(moving) // 15)):
@@ -170,18 +158,20 @@ class CollisionAvoidance:
         speed, acceleration = (
             np.abs(np.diff(weights, n, axis=0)).max(axis=0) / step_s**n for n in (1, 2)
         )
-        search = _OffsetSearch(
+        search = OffsetSearch(
             movement.sample(times),
             np.concatenate([v.members for v in zero]),
             weights,
             np.minimum(MOST_ADDED_RAD_S / speed, MOST_ADDED_RAD_S2 / acceleration),
             self.overlaps,
             self.overlaps.axis_distances(self.intended_touches(start, end)),
-            float(np.clip(time_share, LEAST_CLEARANCE_SHARE, 1.0)),
+            self.overlaps.clearance_m * float(np.clip(time_share, LEAST_CLEARANCE_SHARE, 1.0)),
+            OFFSET_WEIGHT_M,
+            MAX_STEP_RAD,
             movement.coordinates.lower,
             movement.coordinates.upper,
         )
-        offset = search.smallest_offset()
+        offset = _smallest_offset(search)
         if offset is None:
             return []
         ends = np.cumsum([len(v.members) for v in zero])[:-1]
@@ -232,96 +222,16 @@ def _merged(
     return out
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _OffsetSearch:
-    """Damped least squares for the smallest offset with which all pairs keep their distance.
-
-    q: (T, V) samples of the stretch. members: (n,) coordinates to offset. weights: (T, n) share of
-    the offset at each sample. most: (n,) largest offset either way. axis_distances: (P,) metres.
-    clearance_share: how much of the clearance to keep, as there is time for it. lower, upper: (V,)
-    limits.
-    """
-
-    q: Array
-    members: NDArray[np.int64]
-    weights: Array
-    most: Array
-    overlaps: CapsuleOverlaps
-    axis_distances: Array
-    clearance_share: float
-    lower: Array
-    upper: Array
-
-    def smallest_offset(self) -> Array | None:
-        """Return the offset, (n,) radians; none if it would avoid too little."""
-        depths = self.overlaps.depths(self.q, self.axis_distances)
-        approach = depths.max(axis=0) - np.maximum(depths[0], depths[-1])
-        clearance = self.overlaps.clearance_m * self.clearance_share
-        near = depths.max(axis=0) > np.where(self.overlaps.same_hand, DEEP_FINGERS_M, DEEP_M)
-        if not np.any(near & (approach > LEAST_APPROACH_M)):
-            return None
-        pairs = np.flatnonzero(np.any(depths > -CONSIDERED_M, axis=0))
-        allowed = self._allowed_depths(depths[:, pairs], clearance[pairs])
-        enough = ALLOWED_SHORTFALL * float(np.min(clearance[pairs]))
-        c, damping = np.zeros(len(self.members)), DAMPING
-        error, J = self._errors(c, pairs, allowed)
-        error_before, cost = float(np.max(error)), float(np.sum(error**2))
-        for _ in range(MAX_ITERATIONS):
-            if np.max(error) <= enough:
-                break
-            lhs, rhs = _normal_equations(J, error)
-            lhs += (OFFSET_WEIGHT_M**2 + damping) * np.eye(len(c))
-            step = -np.linalg.solve(lhs, rhs + OFFSET_WEIGHT_M**2 * c)
-            step *= min(1.0, MAX_STEP_RAD / max(1e-9, float(np.max(np.abs(step)))))
-            step = np.clip(c + step, -self.most, self.most) - c
-            new_error, new_J = self._errors(c + step, pairs, allowed)
-            new_cost = float(np.sum(new_error**2) + OFFSET_WEIGHT_M**2 * np.sum((c + step) ** 2))
-            gain = 1.0 - new_cost / cost
-            if gain > 0.0:
-                c, error, J, cost, damping = c + step, new_error, new_J, new_cost, damping / 3
-            else:
-                damping *= 8
-            if 0.0 < gain < LEAST_GAIN:
-                break
-        return c if float(np.max(error)) < WORTHWHILE * error_before else None
-
-    def _allowed_depths(self, depths: Array, clearance: Array) -> Array:
-        """Return the depths that pairs may have in the samples, (T, P) metres.
-
-        Minus the clearance; but a pair that is nearer at an end of the stretch may be so near
-        beside that end, and reaches the clearance by minimum jerk within the share `TAPER`.
-        """
-        ends = np.maximum(depths[[0, -1]], -clearance)
-        along = np.linspace(0.0, 1.0, len(self.q))[:, None]
-        leaving = 1.0 - minimum_jerk(along / TAPER)
-        arriving = 1.0 - minimum_jerk((1.0 - along) / TAPER)
-        near = np.maximum((ends[0] + clearance) * leaving, (ends[1] + clearance) * arriving)
-        return np.asarray(near - clearance)
-
-    def _errors(
-        self, offset: Array, pairs: NDArray[np.int64], allowed: Array
-    ) -> tuple[Array, Array]:
-        """Return depths beyond the allowed ones, (T · P,) metres, and derivatives, (T · P, n)."""
-        wanted = self.q.copy()
-        wanted[:, self.members] += self.weights * offset
-        q = np.clip(wanted, self.lower, self.upper)
-        least = float(allowed.min(initial=math.inf))
-        depths, gradients = self.overlaps.depths_and_gradients(
-            q, self.axis_distances, pairs, self.members, least
-        )
-        beyond = depths - allowed
-        # A coordinate at its limit does not move, and a pair that is far enough does not count.
-        counts = (wanted == q)[:, None, self.members] & (beyond > 0.0)[..., None]
-        J = gradients * self.weights[:, None, :] * counts
-        return np.maximum(beyond, 0.0).ravel(), J.reshape(beyond.size, -1)
-
-
-def _normal_equations(J: Array, error: Array) -> tuple[Array, Array]:
-    """Return Jᵀ J, (n, n), and Jᵀ e, (n,), of slopes (R, n) that are zero where errors (R,) are.
-
-    Without BLAS, which may share products of this size among threads: their number could then
-    show in the result, and on busy cores they wait for each other longer than the product takes.
-    """
-    rows = np.flatnonzero(error)
-    columns = np.ascontiguousarray(J[rows].T)
-    return np.einsum("ir,jr->ij", columns, columns), np.einsum("ir,r->i", columns, error[rows])
+def _smallest_offset(search: OffsetSearch) -> Array | None:
+    """Return the offset, (n,) radians; none if it would avoid too little."""
+    depths = search.overlaps.depths(search.q, search.axis_distances)
+    approach = depths.max(axis=0) - np.maximum(depths[0], depths[-1])
+    apart = ~search.overlaps.same_hand
+    if not np.any(apart & (depths.max(axis=0) > DEEP_M) & (approach > LEAST_APPROACH_M)):
+        return None
+    pairs = np.flatnonzero(apart & np.any(depths > -CONSIDERED_M, axis=0))
+    allowed = search.allowed_depths(depths[:, pairs], pairs)
+    before = float(np.max(depths[:, pairs] - allowed))
+    enough = ALLOWED_SHORTFALL * float(np.min(search.clearance[pairs]))
+    found = search.smallest(np.zeros(len(search.members)), pairs, allowed, enough)
+    return found.values if found.shortfall_m < WORTHWHILE * before else None

@@ -27,6 +27,7 @@ export class AzeePlayer extends HTMLElement {
   private playback = new Playback(0, 0);
   private shown: Label | null = null;
   private told: Playback['state'] = 'idle';
+  private readonly complaints = new Set<string>(); // that were told
   private last: Movement | null = null;
   private lastFrame: number | null = null;
   private frame = 0;
@@ -201,7 +202,10 @@ export class AzeePlayer extends HTMLElement {
   }
 
   private refresh(): void {
-    this.settings = readSettings(attributesOf(this), message => console.warn(`azee-player: ${message}`));
+    this.settings = readSettings(attributesOf(this), message => {
+      if (!this.complaints.has(message)) console.warn(`azee-player: ${message}`);
+      this.complaints.add(message);
+    });
     this.playback.speed = this.settings.speed;
     this.playback.loop = this.settings.loop;
     if (this.settings.controls && !this.bar) {

@@ -23,13 +23,13 @@ const now = made('output', { id: 'now', 'aria-label': words.now, 'aria-live': 'o
 const play = made('button', { id: 'play', type: 'submit' }, words.play);
 const stop = made('button', { id: 'stop', type: 'button' }, words.stop);
 const quit = made('button', { id: 'quit', type: 'button' }, words.quit);
-const told = made('ul', { id: 'told', role: 'status' });
+const told = made('ul', { id: 'told' });
 const form = made('form', {},
   made('label', { for: 'text' }, words.text), text,
   made('div', { class: 'row' },
     made('label', {}, words.source, source), made('label', {}, words.body, body)),
   made('div', { class: 'row' }, play, stop, quit),
-  told, known);
+  made('div', { role: 'status' }, told), known);
 document.body.append(made('main', {}, now, form));
 
 function tell(messages: readonly string[]): void {
@@ -60,7 +60,8 @@ async function begin(): Promise<void> {
   const list = (): void => {
     const names = Object.keys(chosen().signs ?? {});
     known.hidden = names.length === 0 || chosen().kind === 'letters';
-    known.replaceChildren(made('summary', {}, `${names.length} ${words.signs}`), names.join(' '));
+    known.replaceChildren(made('summary', {}, `${names.length} ${words.signs}`),
+      made('p', { tabindex: '0' }, names.join(' ')));
   };
   source.onchange = list;
   list();

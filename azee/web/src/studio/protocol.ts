@@ -20,7 +20,7 @@ export interface Block {
   parent: number;
   title: string;
   rule: string | null;
-  kind: 'key' | 'hold' | 'blank' | 'sync' | 'seq';
+  kind: 'key' | 'hold' | 'recorded' | 'blank' | 'sync' | 'seq';
   start_s: number;
   end_s: number;
   place: [number, number] | null;

@@ -1,0 +1,151 @@
+"""What a notation leaves to the reader is written so that a body can do it."""
+
+from __future__ import annotations
+
+import pytest
+from pairs import sigml
+
+from azee.lexicon.clearance import cleared
+from azee.lexicon.hands import Hand
+from azee.lexicon.model import Form, HandShape, Heading, OnBody
+from azee.lexicon.places import Place, Site, apart, body_place
+from azee.lexicon.reading import read_bytes
+from azee.lexicon.rule_text import rule_text
+
+POINTING_UP = '<handconfig handshape="flat" extfidir="u" palmor="l"/>'
+
+
+def _rule(manual: str) -> str:
+    (found,) = read_bytes(sigml(manual), "x.sigml")
+    assert found.sign is not None
+    return rule_text(found.sign, "x", "test").text
+
+
+def _both(inner: str, more: str = "") -> str:
+    return _rule(f'<sign_manual both_hands="true" lr_symm="true" {more}>{inner}</sign_manual>')
+
+
+def test_two_hands_before_one_part_of_the_face_are_beside_each_other() -> None:
+    text = _both(f'{POINTING_UP}<location_bodyarm location="forehead" contact="close"/>')
+    assert "place @PA(s) :from('point = @FH, 'out = .077, 'fwd = .077)" in text
+    assert "place @PA(w) :from('point = @FH, 'side = w, 'out = .077, 'fwd = .077)" in text
+
+
+def test_two_hands_touch_the_middle_of_the_face_on_their_own_sides() -> None:
+    text = _both(f'{POINTING_UP}<location_bodyarm location="nose" contact="touch"/>')
+    assert "@NO(s) 'contact" in text
+    assert "@NO(w) 'contact" in text
+    assert apart(Place((Site("CK", "w"),))) == Place((Site("CK", "w"),))
+
+
+def test_a_touch_between_two_sites_is_a_contact() -> None:
+    text = _rule(
+        f'<sign_manual>{POINTING_UP}<location_bodyarm location="chin" second_location="lips"'
+        ' contact="touch"/></sign_manual>'
+    )
+    assert "midpoint(@CH, @MO) 'contact 'within .003" in text
+
+
+def test_a_touch_beside_a_part_of_the_face_is_on_the_skin() -> None:
+    beside = body_place(OnBody("forehead", side="right_beside", contact="touch"))
+    assert beside == Place((Site("TE", "s"),), touches=True)
+    before = body_place(OnBody("forehead", side="right_beside", contact="close"))
+    assert before.sites == (Site("FH", "s"),)
+
+
+def test_between_the_neck_and_the_chin_is_halfway_in_height() -> None:
+    place = body_place(OnBody("neck", second="chin", contact="close"))
+    neck, chin = (body_place(OnBody(at, contact="close")) for at in ("neck", "chin"))
+    assert neck.is_space
+    assert not chin.is_space
+    assert place.offset[1] == pytest.approx((0.13 + 0.31) / 2 * 0.4808, abs=1e-3)
+    ear = body_place(OnBody("ear", second="shoulders", contact="close"), "s")
+    assert ear.offset[0] == pytest.approx(
+        -body_place(OnBody("ear", second="shoulders", contact="close"), "w").offset[0]
+    )
+    assert ear.offset[0] < 0
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "z", "fingers", "least"),
+    [
+        (0.0, -0.2, 0.05, "i", 0.13 + 0.01 + 0.128),
+        (0.0, -0.2, 0.05, "u", 0.13 + 0.01),
+        (0.0, 0.03, 0.05, "u", 0.10 + 0.01),
+        (0.0, -0.2, 0.30, "i", 0.30),
+        (0.3, -0.2, 0.05, "i", 0.05),
+        (0.0, 0.5, 0.05, "i", 0.05),
+    ],
+)
+def test_a_hand_that_moves_into_the_body_stays_before_it(
+    x: float, y: float, z: float, fingers: str, least: float
+) -> None:
+    start = Place(offset=(x, y, 0.4))
+    moved = start.moved((0.0, 0.0, z - 0.4))
+    flat = Hand(HandShape(Form("flat")), Heading(fingers), Heading("l"), Site("PA", "s"), moved)
+    place = cleared(flat).place
+    assert place is not None
+    assert place.offset == pytest.approx((x, y, least))
+    way = place.way_from(start)
+    assert way == pytest.approx((0.0, 0.0, least - 0.4))
+
+
+def test_a_movement_that_is_cut_short_is_told() -> None:
+    inward = '<directedmotion direction="i" size="big"/>'
+    place = '<location_bodyarm location="chest" contact="close"/>'
+    manual = f"<sign_manual>{POINTING_UP}{place}{inward}</sign_manual>"
+    assert "# Approximated: a movement that would end in the body ends before it." in _rule(manual)
+    assert "Approximated" not in _rule(manual.replace('"i"', '"o"'))
+
+
+def test_a_hand_that_touches_the_body_stays_where_it_is() -> None:
+    hand = Hand(
+        None, Heading("i"), Heading("l"), Site("PA", "s"), Place((Site("ST"),), touches=True)
+    )
+    assert cleared(hand) == hand
+    other = Hand(None, Heading("i"), Heading("l"), Site("PA", "s"), Place((Site("PA", "w"),)))
+    assert cleared(other) == other
+
+
+def test_thumb_and_index_of_a_bent_pinch_touch() -> None:
+    text = _rule('<sign_manual><handconfig handshape="pinch12" mainbend="bent"/></sign_manual>')
+    assert "'index_bend s .84 'soft 'index_hook s .31 'soft" in text
+    assert "place @T_TIP(s) @I_TIP(s) 'contact" in text
+    wide = _rule('<sign_manual><handconfig handshape="pinch12open" mainbend="bent"/></sign_manual>')
+    assert "'contact" not in wide
+
+
+def test_a_hand_that_repeats_a_shape_keeps_its_place() -> None:
+    fist = '<tgt_motion><changeposture/><handconfig handshape="fist"/></tgt_motion>'
+    text = _rule(
+        f'<sign_manual>{POINTING_UP}<location_bodyarm location="chest"/>'
+        f'<rpt_motion repetition="fromstart">{fist}</rpt_motion></sign_manual>'
+    )
+    assert text.count("place @PA(s)") == 1
+    hands = text[text.index("'HANDS") : text.index("'P1")]
+    assert "place @PA(s)" in hands
+
+
+@pytest.mark.parametrize(("more", "circles"), [("", 1), ('outofphase="true"', 2)])
+def test_only_hands_that_circle_round_each_other_circle_each(more: str, circles: int) -> None:
+    """Hands that circle in the same way are carried along by each other."""
+    text = _rule(
+        f'<sign_manual both_hands="true" {more}>'
+        '<handconfig handshape="fist" extfidir="o" palmor="l"/>'
+        '<handconstellation contact="touch"><location_hand location="palm"/>'
+        '<location_hand location="palm"/></handconstellation>'
+        '<circularmotion axis="l"/></sign_manual>'
+    )
+    assert text.count("circle(") == circles
+
+
+def test_the_ball_of_the_thumb_is_a_site_of_its_own() -> None:
+    text = _rule(
+        f'<sign_manual>{POINTING_UP}<location_bodyarm location="chin" contact="touch">'
+        '<location_hand location="thumbball"/></location_bodyarm></sign_manual>'
+    )
+    assert "place @T_BALL(s) @CH 'contact" in text
+
+
+def test_below_the_chin_is_a_site_of_its_own() -> None:
+    assert body_place(OnBody("underchin", contact="touch")) == Place((Site("CHu"),), touches=True)

@@ -1,0 +1,108 @@
+"""Fingers that pass round fingers between two handshapes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from azee.motion.curves.capsule_overlap import CapsuleOverlaps
+from azee.motion.curves.finger_passage import MOST_RAD_S, FingerPassage
+from azee.motion.curves.limb_curves import LimbCurve, LimbKey
+from azee.motion.curves.movement import Movement
+from azee.motion.tasks.interval_index import IntervalIndex
+from azee.motion.tasks.limbs import Limbs
+from azee.score.interval import Interval
+from azee_rig.load import load_rig
+from azee_solver.evaluate import Evaluator
+from azee_solver.geometry import Side
+
+WAY_S = 0.2
+THUMB = ("thumb_R_1.flexion", "thumb_R_1.abduction", "thumb_R_1.roll",
+         "thumb_R_2.flexion", "thumb_R_3.flexion")  # fmt: skip
+FINGERS = ("index", "middle", "ring", "little")
+CLOSED = (77, 86, 42)
+LITTLE = (75, 81, 40)
+SHAPES = {
+    "thumb over a fist": (
+        (73, 84, 38), (77, 90, 42), CLOSED, LITTLE, (-61, 54, -14, 52, 74)
+    ),
+    "thumb between two fingers": (
+        (3, 6, 4), (38, 5, 4), CLOSED, LITTLE, (-11, 32, 39, 36, -8)
+    ),
+    "thumb below two fingers": (
+        (72, 67, 31), (60, 58, 34), CLOSED, LITTLE, (-18, 53, 39, 60, -13)
+    ),
+}  # fmt: skip
+"""Joints of index, middle, ring and little finger and of the thumb, degrees."""
+
+
+@cache
+def overlaps() -> CapsuleOverlaps:
+    return CapsuleOverlaps(Evaluator(load_rig(), Side.RIGHT))
+
+
+def posture(shape: str) -> NDArray[np.float64]:
+    coordinates = load_rig().coordinates
+    q = coordinates.idle.copy()
+    *fingers, thumb = SHAPES[shape]
+    for finger, angles in zip(FINGERS, fingers, strict=True):
+        q[coordinates.index[f"{finger}_R_1.deviation"]] = 0.0
+        for phalanx, angle in enumerate(angles, start=1):
+            q[coordinates.index[f"{finger}_R_{phalanx}.flexion"]] = math.radians(angle)
+    for name, angle in zip(THUMB, thumb, strict=True):
+        q[coordinates.index[name]] = math.radians(angle)
+    return q
+
+
+def straight(first: str, second: str) -> Movement:
+    coordinates = load_rig().coordinates
+    limbs, a, b = Limbs.of(coordinates), posture(first), posture(second)
+    curves = {
+        limb: LimbCurve((LimbKey(0.0, a[of]), LimbKey(WAY_S, b[of])), coordinates.idle[of])
+        for limb, of in limbs.members.items()
+    }
+    return Movement(coordinates, limbs, curves)
+
+
+def passed(movement: Movement, *in_use: tuple[Interval, frozenset[str]]) -> Movement:
+    found = FingerPassage(overlaps(), IntervalIndex(in_use)).via_points(movement)
+    return replace(movement, via_points=tuple(found))
+
+
+def deepest(movement: Movement) -> float:
+    """How deep any two digits are in each other on the way, beyond how they are at its ends."""
+    q = movement.sample(np.linspace(0.0, WAY_S, 41))
+    depths = overlaps().depths(q, overlaps().axis_distances(()))[:, overlaps().same_hand]
+    return float(np.max(depths - np.maximum(0.0, np.maximum(depths[0], depths[-1]))))
+
+
+@pytest.mark.parametrize("first", SHAPES)
+@pytest.mark.parametrize("second", SHAPES)
+def test_a_thumb_goes_round_fingers_between_the_same_handshapes(first: str, second: str) -> None:
+    if first == second:
+        assert passed(straight(first, second)).via_points == ()
+        return
+    through = straight(first, second)
+    round_them = passed(through)
+    ends = np.array([0.0, WAY_S])
+    assert round_them.sample(ends) == pytest.approx(through.sample(ends))
+    if "thumb over a fist" in (first, second):
+        assert deepest(through) > 0.008
+    assert deepest(round_them) < 0.002
+    times = np.linspace(0.0, WAY_S, 201)
+    added = np.diff(round_them.sample(times) - through.sample(times), axis=0) / (WAY_S / 200)
+    assert np.abs(added).max() < 2 * MOST_RAD_S
+
+
+def test_a_thumb_that_a_block_needs_stays_where_it_is() -> None:
+    needed = (Interval(Fraction(0), Fraction(1)), frozenset(("thumb_R",)))
+    movement = straight("thumb over a fist", "thumb between two fingers")
+    thumb = movement.limbs.members["thumb_R"]
+    for via_point in passed(movement, needed).via_points:
+        assert not {*thumb.tolist()} & {*via_point.members.tolist()}

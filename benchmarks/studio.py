@@ -71,7 +71,7 @@ def _edits(url: str) -> bool:
     frames = told["frames_ms"]
     print(f"a frame: {statistics.median(frames):.1f} ms, {max(frames):.1f} at most "
           f"({told['device']})")  # fmt: skip
-    return half <= EDIT_S
+    return bool(half <= EDIT_S)
 
 
 def _load(studio: object, seconds: float) -> bool:

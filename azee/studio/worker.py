@@ -58,7 +58,7 @@ class Inbox:
             return message, gone
 
     def put_back(self, message: Header) -> None:
-        """Take back a job that gave way to a text; it is the next after the texts."""
+        """Take back a job that a text interrupted; it is the next after the texts."""
         with self._changed:
             self._others.insert(0, message)
 

@@ -17,6 +17,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
 
 
 class Studio:
@@ -79,12 +80,15 @@ class Studio:
         finally:
             connection.close()
 
-    def live(self, **headers: str) -> ClientConnection:
+    def live(self, origin: str | None = "own") -> ClientConnection:
         """Return a live connection of a page; the caller closes it."""
+        said = self.origin if origin == "own" else origin
         return connect(
-            self.url.replace("http:", "ws:") + "live", max_size=None, proxy=None,
-            origin=headers.pop("origin", self.origin), additional_headers=headers,
-        )  # fmt: skip
+            self.url.replace("http:", "ws:") + "live",
+            max_size=None,
+            proxy=None,
+            origin=None if said is None else Origin(said),
+        )
 
 
 def received(socket: ClientConnection, timeout: float = 120) -> tuple[dict[str, Any], bytes]:

@@ -16,7 +16,11 @@ from azee.studio.score_rows import score_rows
 
 SENTENCE = ":info-about\n    'topic\n    :personne\n    'info\n    :âge\n"
 KEY = "key 1\n    cstr\n        place @I_TIP(s) @CH\n        orient 'nrm !palm(s) 'along ^up\n"
-QUICK = {"life": False, "fps": 10.0}
+
+
+def quick(text: str, expression: str | None = None) -> Job:
+    """Return a job that takes little time."""
+    return Job(1, "a.azee", text, expression, life=False, fps=10.0)
 
 
 def nothing() -> None:
@@ -64,7 +68,7 @@ def test_a_newer_text_stops_the_work_between_postures(tmp_path: Path) -> None:
         if calls == 2:
             raise SupersededError
 
-    answers = compiled(Job(1, "a.azee", KEY, **QUICK), tmp_path, [], check, Postures())
+    answers = compiled(quick(KEY), tmp_path, [], check, Postures())
     assert next(answers)[0]["kind"] == "score"
     with pytest.raises(SupersededError):
         next(answers)
@@ -72,7 +76,7 @@ def test_a_newer_text_stops_the_work_between_postures(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_key_comes_as_score_clip_and_report_with_marks(tmp_path: Path) -> None:
-    job = Job(1, "a.azee", KEY, **QUICK)
+    job = quick(KEY)
     answers = {
         header["kind"]: (header, data)
         for header, data in compiled(job, tmp_path, [], nothing, Postures())
@@ -99,7 +103,7 @@ def test_postures_that_are_remembered_give_the_same_movement(tmp_path: Path) -> 
     known = Postures()
     texts = (SENTENCE, SENTENCE.replace("personne", "arbre"), SENTENCE)
     made = [
-        next(data for header, data in compiled(Job(1, "a.azee", text, **QUICK), tmp_path, [],
+        next(data for header, data in compiled(quick(text), tmp_path, [],
                                                nothing, known) if header["kind"] == "clip")
         for text in texts
     ]  # fmt: skip
@@ -108,7 +112,7 @@ def test_postures_that_are_remembered_give_the_same_movement(tmp_path: Path) -> 
 
 @pytest.mark.slow
 def test_a_rule_has_a_picture(tmp_path: Path) -> None:
-    job = Job(0, "a.azee", "", ":arbre", **QUICK)
+    job = quick("", ":arbre")
     image = Image.open(io.BytesIO(still(job, tmp_path, [], (84, 105), nothing, Postures())))
     assert image.size == (84, 105)
     assert np.ptp(np.asarray(image)) > 100

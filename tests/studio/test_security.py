@@ -72,7 +72,7 @@ def test_nothing_is_there_without_the_token(studio: Studio) -> None:
 
 @pytest.mark.parametrize("origin", ["http://evil.example", None])
 def test_a_live_connection_needs_an_origin_of_ours(studio: Studio, origin: str | None) -> None:
-    with pytest.raises(InvalidStatus), studio.live(origin=origin):  # type: ignore[arg-type]
+    with pytest.raises(InvalidStatus), studio.live(origin):
         pass
 
 
@@ -140,9 +140,9 @@ REQUESTS = [
     ("GET", "body/signer.glb", None),
     ("GET", "film?name=film.mp4", None),
 ]
-BEGIN = {"capabilities": {}, "processId": None, "rootUri": None}
+BEGIN: dict[str, object] = {"capabilities": {}, "processId": None, "rootUri": None}
 TEXT = {"uri": "file:///a.azee", "languageId": "azee", "version": 1, "text": ""}
-CALLS = [
+CALLS: list[dict[str, object]] = [
     {"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": BEGIN},
     {"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": TEXT}},
 ]
@@ -150,7 +150,8 @@ MESSAGES: list[dict[str, object]] = [
     {"kind": "compile", "number": 1, "file": "a.azee", "text": ":abre\n", "rig": "signer"},
     {"kind": "draft", "number": 1, "file": "b.azee", "text": ":abre\n", "digest": None},
     {"kind": "watch", "file": "a.azee", "digest": "0"},
-    *({"kind": "lsp", "message": call} for call in CALLS),
+    {"kind": "lsp", "message": CALLS[0]},
+    {"kind": "lsp", "message": CALLS[1]},
 ]
 
 

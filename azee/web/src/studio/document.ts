@@ -2,8 +2,8 @@
 import type { Answer, Opened } from './protocol';
 import { type Live, Refusal, server } from './server';
 
-const KEEP_MS = 250; // after the last key; at most half a second after the first
-const LATEST_MS = 500;
+const KEEP_MS = 100; // after the last key; at most a quarter of a second after the first
+const LATEST_MS = 250;
 
 export type State = 'saved' | 'kept' | 'keeping';
 

@@ -78,7 +78,7 @@ export class Editor {
       extensions: [
         lineNumbers(), highlightSpecialChars(), history(), indentUnit.of('    '), asDeep,
         indentOnInput(), bracketMatching(), closeBrackets(), highlightActiveLine(),
-        highlightSelectionMatches(), autocompletion(), azee, colours, marks, EditorView.lineWrapping,
+        highlightSelectionMatches(), autocompletion({ selectOnOpen: false }), azee, colours, marks, EditorView.lineWrapping,
         this.language.of([]),
         this.label.of(EditorView.contentAttributes.of({ 'aria-label': label })),
         keymap.of([

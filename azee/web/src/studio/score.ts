@@ -2,7 +2,7 @@
 import { h, svg } from './elements';
 import type { Block, Constraint } from './protocol';
 
-const ROW = 26, RULER = 20, PAD = 12, LEAST_WIDTH = 4, LETTER = 8;
+const ROW = 26, RULER = 20, PAD = 12, LEAST_WIDTH = 4, LEAST_TITLED = 18;
 
 interface Row {
   block: Block;
@@ -153,18 +153,17 @@ export class Score {
     const path = block.path.join('/');
     const state = this.missed.has(path) ? 'missed' : this.eased.has(path) ? 'eased' : '';
     const times = `${block.start_s.toFixed(2)}–${block.end_s.toFixed(2)} s`;
-    const room = Math.floor((wide - 10) / LETTER);
-    const text = room < 2 ? '' : block.title.length <= room ? block.title : `${block.title.slice(0, room - 1)}…`;
     const group = svg('g', {
       role: 'option', id: `block-${index}`, 'data-index': index,
       'aria-label': `${block.title}, ${times}${state ? `, ${state}` : ''}`, 'aria-selected': 'false',
       class: `block ${block.kind} ${block.place ? 'own' : 'library'} ${state}`,
     });
     group.append(
-      svg('title', {}, `${block.title}  ${times}`),
+      svg('title', {}, `${block.title}, ${times}`),
       svg('rect', { x, y: y + 1, width: wide, height: ROW - 3, rx: 4 }),
     );
-    if (text) group.append(svg('text', { x: x + 6, y: y + 17, 'aria-hidden': 'true' }, text));
+    if (wide >= LEAST_TITLED) // a drawing inside cuts off what has no room
+      group.append(svg('svg', { x, y, width: wide - 3, height: ROW }, svg('text', { x: 6, y: 17 }, block.title)));
     if (state) group.append(svg('circle', { cx: x + wide - 6, cy: y + 7, r: 3.5, class: 'flag' }));
     return group;
   }

@@ -30,7 +30,8 @@ class Instant:
     """The state of a body at an instant of a score.
 
     time: on the score's time line. q: (V,) radians, as the clip has the body. unit_weights: of the
-    face. tasks: of postures, in force. face: facial morphs in force. limbs: of the body.
+    face. tasks: of postures, in force. face: facial morphs in force. limbs: of the body. around:
+    all tasks of postures, whenever they are in force.
     """
 
     score: Score
@@ -41,6 +42,7 @@ class Instant:
     tasks: tuple[TimedTask, ...]
     face: tuple[TimedTask, ...]
     limbs: Limbs
+    around: tuple[TimedTask, ...]
 
     @classmethod
     def of(cls, made: Compilation, time_s: float, dominant: Side) -> Instant:
@@ -64,6 +66,7 @@ class Instant:
             tuple(t for t in schedule.posture_tasks if t.requirement.covers(time)),
             tuple(t for t in schedule.facial_morphs if t.requirement.covers(time)),
             limbs,
+            schedule.posture_tasks,
         )
 
     def ik_task(self, task: TimedTask) -> Task:

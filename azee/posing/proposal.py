@@ -206,7 +206,7 @@ class Proposing:
             yield from of_rules(self._text, self._instant, foreign[0], self._frames)
         else:
             yield from beside_others(self._text, self._instant, handle)
-            yield new_block(self._text, self._instant)
+            yield new_block(self._text, self._instant, handle)
 
     def _is_same(self, handle: MorphHandle, constraint: Constraint) -> bool:
         binding = self._evaluator.binding

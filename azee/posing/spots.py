@@ -155,17 +155,20 @@ def _is_posture(node: Application) -> bool:
     return isinstance(node.head, RuleName) and node.head.form is RuleForm.POSTURE
 
 
-def new_block(text: PosedText, instant: Instant) -> Spot:
-    """Return the spot of a new block beside the innermost rule that the text applies then."""
+def new_block(text: PosedText, instant: Instant, handle: Handle) -> Spot:
+    """Return the spot of a new block beside the innermost rule that the text applies then.
+
+    It is so short that the hand has time to come from what is asked of it before, and to go on.
+    """
     document = text.document
     path, names, score, start = _application_at(text, instant)
     passed_s = instant.time - start
     share = min(max(passed_s / score.duration, Fraction(0)), Fraction(1)) if score.duration else 0
     own = _inside(text.score, names)
-    begin_s = max(own.duration * share - NEW_BLOCK_S / 2, Fraction(0))
-    begin_s = Fraction(round(begin_s * _HUNDREDTHS), _HUNDREDTHS)
+    half_s = min(NEW_BLOCK_S / 2, _alone_s(instant, handle) / 2)
+    begin_s = _hundredths(max(own.duration * share - half_s, Fraction(0)))
     ref = f"'SIG:start{f':{in_azee(decimal(begin_s))}' if begin_s else ''}"
-    duration = in_azee(decimal(NEW_BLOCK_S))
+    duration = in_azee(decimal(_hundredths(2 * half_s)))
     line = document.source.position(node_at(document.nodes, path).span.start)[0]
 
     def edit(constraint: str) -> Edit:
@@ -174,6 +177,18 @@ def new_block(text: PosedText, instant: Instant) -> Spot:
 
     where = f"as a block beside line {line}{_definition(document, path)}"
     return Spot("block", where, _editing(document, edit), cost=0.5)
+
+
+def _hundredths(seconds: Fraction) -> Fraction:
+    return Fraction(round(seconds * _HUNDREDTHS), _HUNDREDTHS)
+
+
+def _alone_s(instant: Instant, handle: Handle) -> Fraction:
+    """Return how far the nearest block is in time that asks something else of a handle."""
+    binding, time = instant.evaluator.binding, instant.time
+    others = [t.interval for t in instant.around if is_replaced(t.constraint, handle, binding)]
+    apart = [max(i.start - time, time - i.end, Fraction(0)) for i in others]
+    return min(apart, default=NEW_BLOCK_S)
 
 
 def _application_at(

@@ -128,7 +128,6 @@ CASES = [
     (":arbre\n", 0.5, "@H_BACK(w)", ("argument", "relocate", "own-rule")),
     (":armoire\n", 0.9, "@I_TIP(w)", ("argument", "own-rule")),
     (":bonjour\n", 0.1, "@M_PAD(s)", ("own-rule",)),
-    ("seq\n    list\n        :chat\n        :personne 'loc ^Rssp\n", 1.9, "@PA(s)", ("block",)),
     (":info-about\n    'topic :cinéma\n    'info :bien\n", 1.2, "@PA(s)", ("block",)),
 ]
 

@@ -58,6 +58,9 @@ FACE_SITES = {
 }
 """Sites of the body of which a hand that touches there should touch one."""
 SKIN_SITES = FACE_SITES | {
+    "forehead": ("FH", "FH_L", "FH_R", "TE_L", "TE_R"),
+    "eyes": ("EYE_L", "EYE_R", "CB_L", "CB_R"),
+    "lips": ("MO", "MO_L", "MO_R", "CDL_L", "CDL_R"),
     "uppereyelid": ("EYE_L", "EYE_R"),
     "lowereyelid": ("EYE_L", "EYE_R"),
     "upperlip": ("MO", "MO_L", "MO_R"),
@@ -71,7 +74,7 @@ SKIN_SITES = FACE_SITES | {
     "stomach": ("ABST", "ABST_L", "ABST_R"),
     "belowstomach": ("AB", "AB_L", "AB_R"),
 }
-"""Sites about which the skin of a part of the body is."""
+"""Sites about which the skin of a part of the body is, and of what is beside it."""
 FACE_RADIUS_M, TRUNK_RADIUS_M = 0.03, 0.08
 """How far about its sites the skin of a part of the face reaches, and that of the trunk."""
 BODY_BONES = ("head", "neck", "back_1", "back_2", "clav_L", "clav_R", "arm_L", "arm_R")
@@ -266,7 +269,8 @@ class Reader:
         own = location.find("location_hand")
         on_skin = where in FACE_SITES and where != "neck" and contact is None
         if contact == "touch" or on_skin:
-            if where in FACE_SITES and not second and not location.get("second_side"):
+            beside = "beside" in f"{location.get('side')}{location.get('second_side')}"
+            if where in FACE_SITES and not (second or location.get("second_side") or beside):
                 for name in self._named:
                     found.hands.setdefault(name, Hand()).touched = FACE_SITES[where]
             return

@@ -8,7 +8,7 @@ from azee.lexicon.phrase import ArcWay, CircleWay, StraightWay, Way, ZigzagWay
 from azee.lexicon.places import Place
 from azee.lexicon.vectors import Vector, is_close, length
 
-WITHIN_DEGREES = 20
+WITHIN_DEGREES = 24
 WITHIN_M = 0.02
 """How far off a hand may be that stays where it is."""
 NEAR_TRUNK_M, NEAR_SKIN_M = 0.01, 0.003

@@ -106,7 +106,7 @@ def _client(studio: object, number: int, end: float, counts: list[int]) -> None:
             if time.time() > end:
                 return
             words = [WORDS[(n + number + i) % len(WORDS)] for i in range(2)]
-            text = f":info-about('topic :{words[0]}, 'info :{words[1]})\n# {n}\n"
+            text = f":info-about(:{words[0]}, :{words[1]})\n# {n}\n"
             job = {"kind": "compile", "number": n, "file": f"{number}.azee", "text": text}
             socket.send(json.dumps(job | {"tempo": 1 + n % 7 / 10}))
             draft = {"kind": "draft", "file": f"{number}.azee", "text": text, "number": n}

@@ -209,10 +209,10 @@ async function shown() {
 async function times() {
   const page = await opened();
   await page.click('.cm-content');
-  await page.keyboard.insertText(":info-about('topic :personne, 'info :âge)\n");
+  await page.keyboard.insertText(":info-about(:personne, :âge)\n");
   await signed(page);
   for (const word of ['arbre', 'âge', 'arbre', 'âge', 'arbre', 'âge', 'arbre', 'âge']) {
-    await page.evaluate(other => azeeStudio.editor.replace(`:info-about('topic :personne, 'info :${other})\n`), word);
+    await page.evaluate(other => azeeStudio.editor.replace(`:info-about(:personne, :${other})\n`), word);
     await signed(page);
     await page.waitForTimeout(600);
   }

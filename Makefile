@@ -9,6 +9,7 @@ RUN := $(BIN)/python
 READY := $(ENV)/.ready
 PACKAGES := $(patsubst %,%/node_modules/.package-lock.json,tests/node azee/web)
 TYPED := tests benchmarks examples
+FIXTURES := $(wildcard tests/*/conftest.py)
 
 .PHONY: web mutants families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
 
@@ -25,7 +26,8 @@ check: $(READY) ## check format, lint and types and run the fast tests; use befo
 	@$(RUN) -m ruff format --check .
 	@$(RUN) -m ruff check .
 	@$(RUN) -m mypy
-	@$(RUN) -m mypy $(wildcard $(addsuffix /**/*.py,$(TYPED)) $(addsuffix /*.py,$(TYPED)))
+	@$(RUN) -m mypy $(filter-out $(FIXTURES),$(wildcard $(addsuffix /**/*.py,$(TYPED)) $(addsuffix /*.py,$(TYPED))))
+	@$(RUN) -m mypy $(FIXTURES)
 	@HYPOTHESIS_PROFILE=quick $(RUN) -m pytest -q -n auto --dist loadfile -m "not slow and not node and not browser"
 
 format: $(READY) ## format all files

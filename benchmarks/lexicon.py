@@ -79,8 +79,7 @@ LIKENESS = {
 }
 """Figures of likeness of which one sign has a value without life."""
 BOUNDS |= {what: figure.at_most for what, figure in LIKENESS.items() if figure.at_most}
-OVERLAPS = {"skin": "overlap of the body's skin, m", "capsules": "overlap of one hand's fingers, m"}
-"""What a report measures on: fingers of one hand on capsules, all else on the skin."""
+OVERLAP, FINGERS = "overlap of the body's skin, m", "overlap of one hand's fingers, m"
 
 
 def signs_of(archive: Path) -> dict[str, bytes]:
@@ -124,8 +123,9 @@ def measure(
             figures.reasons[f"{constraint.kind}: {_kind(constraint.reason)}"] += 1
             figures.add("missed", 1, name)
     if overlap:
-        for on, what in OVERLAPS.items():
-            unmeant = [p.depth_m for p in report.clip_penetration if p.on == on and not p.intended]
+        measured = {OVERLAP: report.clip_penetration, FINGERS: report.self_contact}
+        for what, overlaps in measured.items():
+            unmeant = [p.depth_m for p in overlaps if not p.intended]
             figures.add(what, max(unmeant, default=0.0), name)
     figures.add("trunk, degrees", _trunk(done), name)
     for what, figure in LIKENESS.items():

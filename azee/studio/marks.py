@@ -14,7 +14,18 @@ from azee_rig.chain import Frames
 from azee_rig.rig import Rig
 from azee_solver import kinematics
 from azee_solver.binding import EYES, BindingError
-from azee_solver.constraint import Constraint, Look, LookAt, Orient, Place, Relation
+from azee_solver.constraint import (
+    Constraint,
+    Look,
+    LookAt,
+    Morph,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+    Transpath,
+    Trill,
+)
 from azee_solver.evaluate import Evaluator, evaluator
 from azee_solver.geometry import Side
 from azee_solver.notation import constraint_text
@@ -96,7 +107,7 @@ def _of(
                     goal = body.point(point, frames, phase)
                     reach = np.linalg.norm(goal - base)
                     yield from _mark(base, base + reach * now, goal)
-            case _:
+            case Morph() | Rotate() | Transpath() | Trill():
                 return
     except BindingError:
         return

@@ -16,6 +16,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
+from azee.compilation import score_of
+from azee.lang.program import load
 from azee.quality.signing_dynamics import SigningDynamics, WristSpeeds
 from azee_rig.load import load_rig
 from benchmarks.ik.elsewhere import NotThere
@@ -45,11 +47,11 @@ def all_found(names: Sequence[str]) -> Iterator[Seen]:
     """
     wanted = names or [*(p.stem for p in sorted(EXAMPLES.glob("*/*.azee"))), *LONGER]
     python, rig = interpreter(), load_rig()
-    for name, score in texts():
+    for name, source in texts():
         if name not in wanted:
             continue
         stem = FILMS / name.strip(":")
-        film = filmed(score, rig, stem.with_suffix(".mp4"))
+        film = filmed(score_of(load(source), None, None), rig, stem.with_suffix(".mp4"))
         track(python, film.film, stem.with_suffix(".npz"))
         draw(film.film, stem.with_suffix(".npz"), stem.with_suffix(".png"))
         yield seen(name, film, stem.with_suffix(".npz"))

@@ -49,7 +49,8 @@ TEXTS = [
 ]
 
 seeds = st.integers(0, 2**32)
-EXAMPLES = min(settings.default.max_examples, 25) if settings.default.derandomize else 1000
+PROFILE = settings.get_profile(settings.get_current_profile_name())
+EXAMPLES = min(PROFILE.max_examples, 25) if PROFILE.derandomize else 1000
 """Few by default: programs take long to draw. The profiles that look further draw more."""
 
 
@@ -63,7 +64,9 @@ def taken(document: Document, edit: Edit) -> list[tuple[int, int]]:
     """The ranges of the text that an edit takes away."""
     match edit:
         case Delete((), row):
-            return [_range(content(document.nodes[row]))]
+            item = document.nodes[row]
+            assert item is not None
+            return [_range(content(item))]
         case Delete(path, row):
             node = node_at(document.nodes, path)
             assert isinstance(node, Application)
@@ -87,7 +90,9 @@ def brought(edit: Edit) -> str:
     return edit.text if isinstance(edit, Replace | Insert | Wrap) else ""
 
 
-def _within(text: str, ranges: Sequence[tuple[int, int]]) -> tuple[Counter[str], Counter[object]]:
+def _within(
+    text: str, ranges: Sequence[tuple[int, int]]
+) -> tuple[Counter[str], Counter[tuple[str, str]]]:
     """The comments and words of a text that lie in ranges."""
     reader = LayoutReader(Source("a", text))
     tokens = [t for item in reader.items() for t in item.tokens if is_word(t)]

@@ -9,7 +9,7 @@ from evaluations import content, problems
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.score.score import Blank, Group, Hold, Key, Score
+from azee.score.score import Blank, Group, Hold, Key, Recorded, Score
 
 LARGEST = 999_999
 DIGIT = re.compile(r"nb-(\d)")
@@ -28,7 +28,7 @@ def _signs(score: Score) -> Iterator[str]:
         case Group():
             for block in sorted(score.blocks, key=lambda b: b.interval_in_parent.start):
                 yield from _signs(block.score)
-        case Key() | Hold() | Blank():
+        case Key() | Hold() | Blank() | Recorded():
             pass
 
 

@@ -74,8 +74,8 @@ class Workplace:
     @classmethod
     def prepared(cls, origin: Path, root: Path, marks: str) -> Workplace:
         """Copy all files that git knows or would add, and the machine code made of them."""
-        made = (path.relative_to(origin) for path in origin.rglob("__pycache__/azee_*.o"))
-        for name in [*_tracked(origin), *made]:
+        made = [path.relative_to(origin) for path in origin.rglob("__pycache__/azee_*.o")]
+        for name in [*map(Path, _tracked(origin)), *made]:
             source = origin / name
             if source.is_file():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)

@@ -50,13 +50,14 @@ def around(start: Array, share: float) -> Array:
     """An eight through the signing space, .2 m wide and .16 m high."""
     turn = 2 * math.pi * share
     offset = (0.1 * math.sin(turn), 0.08 * math.sin(2 * turn), 0.05 * (1 - math.cos(turn)))
-    return start + np.array(offset)
+    return np.asarray(start + np.array(offset))
 
 
 def ahead(start: Array, share: float) -> Array:
     """Forward by 6 cm and back, and 3 cm up and down."""
     turn = 2 * math.pi * share
-    return start + np.array((0.0, 0.03 * math.sin(2 * turn), 0.03 * (1 - math.cos(turn))))
+    offset = (0.0, 0.03 * math.sin(2 * turn), 0.03 * (1 - math.cos(turn)))
+    return np.asarray(start + np.array(offset))
 
 
 def dragged(

@@ -150,7 +150,7 @@ def test_compiled_the_text_puts_the_hand_within_a_millimetre(
 def eased_m(session: PosingSession) -> float:
     """By how much compiling has eased a placement for comfort, and says so."""
     eased = (c for c in session.made.report.constraints if c.outcome is Outcome.EASED)
-    return max((c.residual for c in eased if c.unit == "m"), default=0.0)
+    return max((c.residual or 0.0 for c in eased if c.unit == "m"), default=0.0)
 
 
 def test_the_command_prints_and_writes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -79,8 +79,11 @@ LIKENESS = {
 }
 """Figures of likeness of which one sign has a value without life."""
 BOUNDS |= {what: figure.at_most for what, figure in LIKENESS.items() if figure.at_most}
-OVERLAPS = {"skin": "overlap of the body's skin, m", "capsules": "overlap of one hand's fingers, m"}
-"""What a report measures on: fingers of one hand on capsules, all else on the skin."""
+OVERLAPS = {
+    False: "overlap of the body's skin, m",
+    True: "overlap of one hand's fingers, m",
+}
+"""What overlaps, by whether it is two parts of one arm."""
 
 
 def signs_of(archive: Path) -> dict[str, bytes]:
@@ -124,9 +127,10 @@ def measure(
             figures.reasons[f"{constraint.kind}: {_kind(constraint.reason)}"] += 1
             figures.add("missed", 1, name)
     if overlap:
-        for on, what in OVERLAPS.items():
-            unmeant = [p.depth_m for p in report.clip_penetration if p.on == on and not p.intended]
-            figures.add(what, max(unmeant, default=0.0), name)
+        unmeant = [found for found in report.clip_penetration if not found.intended]
+        for same_arm, what in OVERLAPS.items():
+            depths = (p.depth_m for p in unmeant if _is_of_one_arm(p.pair) == same_arm)
+            figures.add(what, max(depths, default=0.0), name)
     figures.add("trunk, degrees", _trunk(done), name)
     for what, figure in LIKENESS.items():
         figures.add(what, max(figure.read(report.likeness), default=0.0), name)
@@ -142,6 +146,10 @@ def measure(
     _compare(done, start, start_s, "start", name, figures)
     if end is not None:
         _compare(done, end, end_s, "end", name, figures)
+
+
+def _is_of_one_arm(pair: tuple[str, str]) -> bool:
+    return pair[0][-2:] == pair[1][-2:] in ("_L", "_R")
 
 
 def _kind(reason: str | None) -> str:

@@ -22,7 +22,6 @@ Array = NDArray[np.float64]
 SPACE = (
     "key .6\n    cstr\n        place @I_TIP(s) ^Mssp\n        orient 'nrm !palm(s) 'along ^down\n"
 )
-FRAME_S = 0.05
 FOLLOWS_M = 0.005
 
 
@@ -74,14 +73,12 @@ def check(session: PosingSession, frames: list[Frame]) -> None:
         assert np.all(frame.q >= rig.coordinates.lower)
         assert np.all(frame.q <= rig.coordinates.upper)
         assert frame.blocked == ()
-        assert frame.solve_s < FRAME_S
 
 
 def test_a_site_follows_and_the_solver_is_fast(at_rest: PosingSession) -> None:
     frames = dragged(at_rest, "@I_TIP(s)", around, 20)
     assert max(frame.miss for frame in frames) < FOLLOWS_M
     check(at_rest, frames)
-    assert np.median([frame.solve_s for frame in frames]) < 1 / 60
 
 
 @pytest.mark.slow
@@ -98,7 +95,7 @@ def test_a_site_follows_and_the_solver_is_fast(at_rest: PosingSession) -> None:
 def test_for_ten_seconds_a_hand_follows(
     text: str, at_s: float, handle: str, path: Callable[[Array, float], Array], signer: Rig
 ) -> None:
-    """At 30 frames a second: within 5 mm, and no frame takes 50 ms of one core.
+    """At 30 frames a second: within 5 mm; `benchmarks/run.py posing` has the times.
 
     Where the body is beside the hand, the way leads ahead of it.
     """

@@ -32,6 +32,9 @@ FINGERS_LEAST_M = 0.003
 """Shallower penetration of fingers of one hand would not be seen."""
 TOUCH_S = 0.15
 """What touches because the score asks for it may be as near this long before and after."""
+FORMED_S, FORMED_RAD = 1.0, np.radians(5.0)
+"""Fingers form a hand shape while the arm still moves, and keep it when it sets out: those within
+this angle of a shape whose digits touch touch as it asks, this long before and after."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,18 +203,10 @@ def _in_skin(
     search: PenetrationSearch, avoidance: CollisionAvoidance, frame: int, digits: tuple[str, str]
 ) -> tuple[float, bool]:
     """Return how deep the skins of two digits are in each other, and whether that is a touch."""
-    q, time_s = search.coordinates[frame], float(search.times_s[frame])
+    q = search.coordinates[frame]
     evaluator = avoidance.evaluator
     frames = evaluator.rig.chain.frames(q)
-    span = Interval(
-        Fraction(time_s - TOUCH_S).limit_denominator(10**6),
-        Fraction(time_s + TOUCH_S).limit_denominator(10**6),
-    )
-    touches = [
-        meant_contact(evaluator, frames, task.constraint)
-        for task in search.schedule.in_force.overlapping(span)
-        if isinstance(task.constraint, Place) and isinstance(task.constraint.point, SitePoint)
-    ]
+    touches = [meant_contact(evaluator, frames, place) for place in _touches(search, frame, digits)]
 
     def deepest(contacts: Sequence[Contact]) -> float:
         found = mesh_penetration(search.rig, q, contacts, digits)
@@ -221,6 +216,25 @@ def _in_skin(
     if unmeant > FINGERS_LEAST_M or not touches:
         return unmeant, False
     return deepest(()), True
+
+
+def _touches(search: PenetrationSearch, frame: int, digits: tuple[str, str]) -> Iterator[Place]:
+    """Yield the touches that the score asks for about a frame, or in the shape that digits have."""
+    time_s = float(search.times_s[frame])
+    own = [v for v, name in enumerate(search.rig.coordinates.names) if name.startswith(digits)]
+    span = Interval(
+        Fraction(time_s - FORMED_S).limit_denominator(10**6),
+        Fraction(time_s + FORMED_S).limit_denominator(10**6),
+    )
+    for task in search.schedule.in_force.overlapping(span):
+        place = task.constraint
+        if not isinstance(place, Place) or not isinstance(place.point, SitePoint):
+            continue
+        nearest_s = float(np.clip(time_s, float(task.interval.start), float(task.interval.end)))
+        then = int(np.abs(search.times_s - nearest_s).argmin())
+        turn = np.abs(search.coordinates[frame, own] - search.coordinates[then, own])
+        if abs(time_s - nearest_s) <= TOUCH_S or float(turn.max(initial=0.0)) <= FORMED_RAD:
+            yield place
 
 
 def _digit(name: str) -> str:

@@ -42,6 +42,9 @@ def test_a_via_point_sets_in_and_ends_without_a_jerk_and_reaches_its_peak(
     for end in (weight[:4], weight[:-5:-1]):
         assert abs(np.diff(end)[0]) < 1e-6
         assert abs(np.diff(end, 2)[0]) / step**2 < 40.0 / length**2
+    speed, acceleration = via_point.fastest
+    assert np.abs(np.diff(weight)).max() / step == pytest.approx(speed, rel=0.02)
+    assert np.abs(np.diff(weight, 2)).max() / step**2 == pytest.approx(acceleration, rel=0.02)
     outside = np.zeros((2, 1))
     via_point.add_to(outside, np.array([0.5, 1.0 + length + 0.1]))
     assert not outside.any()

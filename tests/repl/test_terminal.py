@@ -47,7 +47,7 @@ def test_a_session(tmp_path: Path) -> None:
 
         terminal.type(":wagg\n")
         terminal.wait("error[unknown-rule]")
-        assert "did you mean `:wag`" in terminal.text
+        terminal.wait("did you mean `:wag`")
 
         terminal.type("seq (map (azop 'n 'nodefault :info-about(:arbre, :bien)) (range 1 600))\n")
         terminal.wait("4800 blocks")

@@ -154,15 +154,12 @@ class CollisionAvoidance:
         times = np.linspace(start, end, count + 2)
         time_share = (end - start - SHORT_S) / (LONG_S - SHORT_S)
         weights = np.hstack([np.outer(v.weight(times), np.ones(len(v.members))) for v in zero])
-        step_s = times[1] - times[0]
-        speed, acceleration = (
-            np.abs(np.diff(weights, n, axis=0)).max(axis=0) / step_s**n for n in (1, 2)
-        )
+        most = np.concatenate([np.full(len(v.members), _largest_offset(v)) for v in zero])
         search = OffsetSearch(
             movement.sample(times),
             np.concatenate([v.members for v in zero]),
             weights,
-            np.minimum(MOST_ADDED_RAD_S / speed, MOST_ADDED_RAD_S2 / acceleration),
+            most,
             self.overlaps,
             self.overlaps.axis_distances(self.intended_touches(start, end)),
             self.overlaps.clearance_m * float(np.clip(time_share, LEAST_CLEARANCE_SHARE, 1.0)),
@@ -220,6 +217,12 @@ def _merged(
             free = tuple(sorted({*free, *other}))
         out[free] = first, last
     return out
+
+
+def _largest_offset(via_point: ViaPoint) -> float:
+    """Return the largest offset of a coordinate that adds no more than is allowed, radians."""
+    speed, acceleration = via_point.fastest
+    return min(MOST_ADDED_RAD_S / speed, MOST_ADDED_RAD_S2 / acceleration)
 
 
 def _smallest_offset(search: OffsetSearch) -> Array | None:

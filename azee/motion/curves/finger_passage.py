@@ -37,7 +37,7 @@ DEEP_M = 0.0015
 """Digits that overlap deeper, and than at both ends of the way, collide."""
 SAMPLES = 12
 """On a way, its ends not counted."""
-LONGEST_S = 1.0
+LONGEST_S = 1.5
 """Longer ways return to rest meanwhile, or are no ways between handshapes."""
 PEAKS = (0.3, 0.6)
 """When the early and the late via point are whole, as shares of the way."""
@@ -146,10 +146,7 @@ class FingerPassage:
         """Return the offsets of all via points, one after the other; none if none helps."""
         members = bells[0].members
         weight = np.stack([bell.weight(way.times) for bell in bells])
-        step_s = float(way.times[1] - way.times[0])
-        speed, acceleration = (
-            np.abs(np.diff(weight, n, axis=1)).max(axis=1) / step_s**n for n in (1, 2)
-        )
+        speed, acceleration = np.array([bell.fastest for bell in bells]).T
         most = np.minimum(MOST_RAD_S / speed, MOST_RAD_S2 / acceleration)
         coordinates = movement.coordinates
         search = OffsetSearch(

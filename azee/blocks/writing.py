@@ -11,22 +11,18 @@ from collections.abc import Mapping, Sequence
 from azee.blocks.comments import Comment, Key, Note, key
 from azee.blocks.tree import Node, Operand, as_item
 from azee_grammar.format import format_file
+from azee_grammar.leaves import head_text, leaf_text
 from azee_grammar.source import Source, Span
 from azee_grammar.syntax import (
     Application,
-    BoneName,
     Definition,
     Expr,
-    Head,
     Hole,
     Item,
     Named,
     Number,
-    OperatorName,
     Parameter,
-    RuleName,
     SideWord,
-    SiteName,
     Symbol,
     Text,
     Use,
@@ -60,7 +56,7 @@ def words_of(node: Node) -> list[Key]:
 
 def first_word(node: Expr) -> str:
     """Return the first word of an expression, with its sigil."""
-    return _head(node.head) if isinstance(node, Application) else _word(node)
+    return head_text(node.head) if isinstance(node, Application) else leaf_text(node)
 
 
 class _Writer:
@@ -120,7 +116,7 @@ class _Writer:
         if not isinstance(expr, Application) or expr.called:
             self._expression(expr)
             return
-        self._word(_head(expr.head), expr.head.span)
+        self._word(head_text(expr.head), expr.head.span)
         self._indent = indent
         for operand in expr.operands:
             self._line()
@@ -132,19 +128,19 @@ class _Writer:
                 self._call(expr)
             case Application(head=head, operands=operands):
                 self._put("(" if operands else "")
-                self._word(_head(head), head.span)
+                self._word(head_text(head), head.span)
                 for operand in operands:
                     self._put("  ")
                     self._operand(operand)
                 self._put(")" if operands else "")
             case Number() | Text() | Symbol() | Parameter() | Hole() | SideWord():
-                self._word(_word(expr), expr.span)
+                self._word(leaf_text(expr), expr.span)
 
     def _call(self, expr: Application) -> None:
         """Write a call; a comment beside its head goes behind the parenthesis."""
         head = expr.head.span
         self._above(head)
-        self._put(_head(expr.head), "(")
+        self._put(head_text(expr.head), "(")
         self.written.setdefault(key(head))
         self._beside(head)
         for i, operand in enumerate(expr.operands):
@@ -201,31 +197,3 @@ class _Writer:
                 self._parts.append("\n" * self._line_ends + margin)
                 self._line_ends = 0
             self._parts.append(part)
-
-
-def _head(head: Head) -> str:
-    match head:
-        case RuleName(name=name, form=form):
-            return form.value + name
-        case BoneName(name=name):
-            return f"!{name}"
-        case SiteName(name=name):
-            return f"@{name}"
-        case OperatorName(name=name):
-            return name
-
-
-def _word(expr: Number | Text | Symbol | Parameter | Hole | SideWord) -> str:
-    match expr:
-        case Number(text=text):
-            return text
-        case Text(text=text):
-            return f'"{text}"'
-        case Symbol(name=name):
-            return f"'{name}"
-        case Parameter(name=name):
-            return f"^{name}"
-        case Hole(name=name):
-            return f"?{name}"
-        case SideWord(name=name):
-            return name

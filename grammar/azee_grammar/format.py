@@ -11,6 +11,7 @@ from bisect import bisect_left
 from collections.abc import Sequence
 
 from azee_grammar.diagnostic import AZeeError
+from azee_grammar.leaves import head_text, leaf_text
 from azee_grammar.misspelt import looks_like_number
 from azee_grammar.parser import parse
 from azee_grammar.rows import beside_head, fits_behind_symbol, fits_line, rows
@@ -132,7 +133,9 @@ class _Printer:
             operands = operands[beside_head(node) :]
         else:
             self.line(
-                depth, prefix + _head(node.head), Span(span.source, span.start, node.head.span.end)
+                depth,
+                prefix + head_text(node.head),
+                Span(span.source, span.start, node.head.span.end),
             )
         if self._published:
             for operand in operands:
@@ -175,7 +178,7 @@ class _Printer:
             self.line(depth, flat, span)
             return
         opened = Span(span.source, span.start, node.head.span.end + 1)
-        self.line(depth, f"{prefix}{_head(node.head)}(", opened)
+        self.line(depth, f"{prefix}{head_text(node.head)}(", opened)
         for operand in node.operands[:-1]:
             self._argument(operand, depth + 1, ",")
         self._argument(node.operands[-1], depth + 1, "")
@@ -202,26 +205,16 @@ class _Printer:
 def _flat(node: Expr | Named, *, nested: bool = False) -> str:
     """Return an expression as one line; `nested` adds parentheses if it has operands."""
     match node:
-        case Number(text=text):
-            return text
-        case Text(text=text):
-            return f'"{text}"'
-        case Symbol(name=name):
-            return f"'{name}"
-        case Parameter(name=name):
-            return f"^{name}"
-        case Hole(name=name):
-            return f"?{name}"
-        case SideWord(name=name):
-            return name
         case Named(name=symbol, value=value):
             return f"'{symbol.name} = {_flat(value)}"
         case Application(head=head, operands=operands, called=True):
-            return f"{_head(head)}({', '.join([_flat(operand) for operand in operands])})"
+            return f"{head_text(head)}({', '.join([_flat(operand) for operand in operands])})"
         case Application(head=head, operands=operands):
-            parts = [_head(head), *[_flat(operand, nested=True) for operand in operands]]
+            parts = [head_text(head), *[_flat(operand, nested=True) for operand in operands]]
             text = _joined(parts, [_bare(head), *operands])
             return f"({text})" if nested and operands else text
+        case Number() | Text() | Symbol() | Parameter() | Hole() | SideWord():
+            return leaf_text(node)
 
 
 def _joined(parts: Sequence[str], nodes: Sequence[Expr | Named]) -> str:
@@ -247,18 +240,6 @@ def _bare(head: Head) -> Application:
     return Application(head.span, head, (), called=False)
 
 
-def _head(head: Head) -> str:
-    match head:
-        case RuleName(name=name, form=form):
-            return form.value + name
-        case BoneName(name=name):
-            return f"!{name}"
-        case SiteName(name=name):
-            return f"@{name}"
-        case OperatorName(name=name):
-            return name
-
-
 def _uncalled(node: Expr) -> Expr:
     """Return a call as an application with lines for its operands, if that has the same meaning."""
     if not isinstance(node, Application) or not node.called:
@@ -271,6 +252,6 @@ def _uncalled(node: Expr) -> Expr:
             operands.append(operand)
         else:
             return node
-    if isinstance(node.head, OperatorName) or looks_like_number(_head(node.head)):
+    if isinstance(node.head, OperatorName) or looks_like_number(head_text(node.head)):
         return node
     return Application(node.span, node.head, tuple(operands), called=False)

@@ -33,8 +33,8 @@ FINGERS_LEAST_M = 0.003
 TOUCH_S = 0.15
 """What touches because the score asks for it may be as near this long before and after."""
 FORMED_S, FORMED_RAD = 1.0, np.radians(5.0)
-"""Fingers form a hand shape while the arm still moves, and keep it when it sets out: those within
-this angle of a shape whose digits touch touch as it asks, this long before and after."""
+"""Fingers form a hand shape while the arm still moves: those within this angle of a shape whose
+digits touch touch as it asks, this long before."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,17 +223,16 @@ def _touches(search: PenetrationSearch, frame: int, digits: tuple[str, str]) -> 
     time_s = float(search.times_s[frame])
     own = [v for v, name in enumerate(search.rig.coordinates.names) if name.startswith(digits)]
     span = Interval(
-        Fraction(time_s - FORMED_S).limit_denominator(10**6),
+        Fraction(time_s - TOUCH_S).limit_denominator(10**6),
         Fraction(time_s + FORMED_S).limit_denominator(10**6),
     )
     for task in search.schedule.in_force.overlapping(span):
-        place = task.constraint
+        place, start_s = task.constraint, float(task.interval.start)
         if not isinstance(place, Place) or not isinstance(place.point, SitePoint):
             continue
-        nearest_s = float(np.clip(time_s, float(task.interval.start), float(task.interval.end)))
-        then = int(np.abs(search.times_s - nearest_s).argmin())
+        then = int(np.abs(search.times_s - start_s).argmin())
         turn = np.abs(search.coordinates[frame, own] - search.coordinates[then, own])
-        if abs(time_s - nearest_s) <= TOUCH_S or float(turn.max(initial=0.0)) <= FORMED_RAD:
+        if start_s - time_s <= TOUCH_S or float(turn.max(initial=0.0)) <= FORMED_RAD:
             yield place
 
 

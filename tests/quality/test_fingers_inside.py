@@ -40,7 +40,9 @@ def test_a_pinch_that_is_formed_on_the_way_touches_as_its_block_asks(
     monkeypatch.setattr(measures, "FINGERS_LEAST_M", 0.0005)
     monkeypatch.setattr(measures, "TOUCH_S", 0.0)
     assert len(formed(pinch)) >= 2
-    found = [p for p in pinch.between_fingers() if p.pair == DIGITS]
+    before = pinch.times_s <= 0.0
+    way = replace(pinch, coordinates=pinch.coordinates[before], times_s=pinch.times_s[before])
+    found = [p for p in way.between_fingers() if p.pair == DIGITS]
     assert found
     assert all(p.intended for p in found)
 

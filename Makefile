@@ -28,7 +28,7 @@ check: $(READY) ## check format, lint and types and run the fast tests; use befo
 	@$(RUN) -m mypy
 	@$(RUN) -m mypy $(filter-out $(FIXTURES),$(wildcard $(addsuffix /**/*.py,$(TYPED)) $(addsuffix /*.py,$(TYPED))))
 	@$(RUN) -m mypy $(FIXTURES)
-	@HYPOTHESIS_PROFILE=quick $(RUN) -m pytest -q -n auto --dist loadfile -m "not slow and not node and not browser"
+	@HYPOTHESIS_PROFILE=quick $(RUN) -m pytest -q -n auto --dist loadfile -m "not slow and not long and not node and not browser"
 
 format: $(READY) ## format all files
 	@$(RUN) -m ruff format .

@@ -134,6 +134,7 @@ def test_pieces_are_the_tokens_of_the_parser(text: str) -> None:
     assert {place: found[place] for place in comments} == comments
 
 
+@pytest.mark.long
 @given(st.data())
 def test_whatever_is_typed_gets_an_answer(data: st.DataObject) -> None:
     """Real texts from which a piece was taken out, as they are while somebody edits them."""

@@ -131,6 +131,7 @@ def check(document: Document, edit: Edit) -> Edited | None:
     return done
 
 
+@pytest.mark.long
 @settings(max_examples=EXAMPLES)
 @given(programs, seeds)
 def test_an_edit_of_blocks_is_the_edit_of_the_tree_and_loses_nothing(text: str, seed: int) -> None:
@@ -142,6 +143,7 @@ def test_an_edit_of_blocks_is_the_edit_of_the_tree_and_loses_nothing(text: str, 
     check(document, edit)
 
 
+@pytest.mark.long
 @settings(max_examples=EXAMPLES)
 @given(programs, seeds)
 def test_editing_and_formatting_commute(text: str, seed: int) -> None:
@@ -161,6 +163,7 @@ def test_editing_and_formatting_commute(text: str, seed: int) -> None:
     assert comments(then) == comments(first)
 
 
+@pytest.mark.long
 @settings(max_examples=EXAMPLES)
 @given(programs, programs, seeds)
 def test_edits_of_different_items_commute(first: str, second: str, seed: int) -> None:
@@ -276,6 +279,7 @@ def journey(seed: int, texts: Sequence[str]) -> int:
     return made
 
 
+@pytest.mark.long
 def test_journeys_between_both_views_lose_no_comment_and_no_word() -> None:
     assert sum(journey(n, TEXTS) for n in range(3)) > 9
 

@@ -72,6 +72,7 @@ def test_a_nearest_pose_is_worse_than_regression(
     assert unseen(made, truth, model) < unseen(nearest, truth, model) < 0.006
 
 
+@pytest.mark.long
 def test_last_joints_may_follow_those_before(held_out: Markers, model: CaptureModel) -> None:
     coupled = reconstruct(held_out.frames(slice(0, 40)), model, coupled=True).postures
     last, before = model.hand().followers

@@ -187,6 +187,7 @@ def test_wrong_use(case: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert _files() == ["one.azee"]
 
 
+@pytest.mark.long
 def test_the_process_itself_shows_no_traceback(python: Python) -> None:
     done = python("-m", "azee", "score", "-", stdin=":wardrob", expect=1)
     assert done.stderr.startswith("error[unknown-rule]")
@@ -199,12 +200,14 @@ def test_the_command_is_a_module_that_runs(module: str, python: Python) -> None:
     assert python("-m", module, "--version", expect=0).stdout.startswith("azee, version ")
 
 
+@pytest.mark.long
 def test_bytes_that_are_no_text_on_standard_input(python: Python) -> None:
     done = python("-m", "azee", "check", "-", stdin=b"\xff\xfe\x00\x01", expect=1)
     assert "error[not-utf8]" in done.stderr
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.long
 def test_a_reader_that_goes_away_is_no_fault(python: Python, tmp_path: Path) -> None:
     """As in `azee score FILE | head -1`: the pipe breaks while we write."""
     script = (
@@ -220,6 +223,7 @@ def test_a_reader_that_goes_away_is_no_fault(python: Python, tmp_path: Path) -> 
     assert done.stderr == ""
 
 
+@pytest.mark.long
 @pytest.mark.skipif(os.name == "nt", reason="closed and full streams are those of POSIX")
 def test_output_that_is_closed_or_full(python: Python) -> None:
     """A closed stream is nobody's who wants output; the next file opened must not become it."""

@@ -121,6 +121,7 @@ def test_utterances_play_one_after_the_other_or_alone() -> None:
     assert expression.score.duration == 3
 
 
+@pytest.mark.long
 def test_standard_input_and_expressions(python: Python, capsys: pytest.CaptureFixture[str]) -> None:
     options = ["--no-life", "--fps", "10"]
     python("-m", "azee", "compile", "-", "-o", "a.json", *options, stdin=TOUCH, expect=0)
@@ -133,12 +134,14 @@ def test_standard_input_and_expressions(python: Python, capsys: pytest.CaptureFi
     assert said.out == ""
 
 
+@pytest.mark.long
 def test_the_same_text_gives_the_same_bytes() -> None:
     for name in ("a.glb", "b.glb"):
         assert run(["compile", "touch.azee", "-o", name, "--quiet"]) == 0
     assert Path("a.glb").read_bytes() == Path("b.glb").read_bytes()
 
 
+@pytest.mark.long
 def test_json_for_scripts(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["compile", "touch.azee", "-o", "touch.bvh", "--format", "json"]) == 0
     captured = capsys.readouterr()
@@ -246,6 +249,7 @@ sync
 """Half a metre in .2 s."""
 
 
+@pytest.mark.long
 def test_what_takes_longer_is_told_unless_the_times_are_to_be_exact(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

@@ -98,6 +98,7 @@ def test_rules_of_a_library_are_known(capsys: pytest.CaptureFixture[str]) -> Non
     assert run(["find", "--quiet", ":chat", "used.azee"]) == 1
 
 
+@pytest.mark.long
 def test_standard_input_is_searched(python: Python) -> None:
     done = python("-m", "azee", "find", "--quiet", "chat()", "-", stdin=":chat\n", expect=0)
     assert done.stdout == "<stdin>:1:1: :chat\n"

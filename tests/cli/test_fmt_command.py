@@ -102,6 +102,7 @@ def test_a_file_that_cannot_be_written_is_one_message(
     assert read("crooked.azee") == CROOKED
 
 
+@pytest.mark.long
 def test_standard_input_to_standard_output(python: Python) -> None:
     for text in (CROOKED, STRAIGHT):
         done = python("-m", "azee", "fmt", "-", stdin=text, expect=0)

@@ -48,6 +48,7 @@ def test_csv_has_the_table_that_is_asked_for() -> None:
     assert [line.split(",")[1] for line in lines] == ["rule", "lake"]
 
 
+@pytest.mark.long
 def test_charts_are_pictures_and_the_same_every_time() -> None:
     outputs = [word for name in ("a.svg", "b.svg", "c.png", "d.pdf") for word in ("-o", name)]
     assert run(["corpus", "stats", "texts", *outputs]) == 0
@@ -62,6 +63,7 @@ def test_charts_are_pictures_and_the_same_every_time() -> None:
     assert Path("d.pdf").read_bytes().startswith(b"%PDF")
 
 
+@pytest.mark.long
 def test_a_chart_has_no_more_bars_than_can_be_read() -> None:
     Path("texts/a.azee").write_text("".join(f":rule-{i}\n" for i in range(70)), encoding="utf-8")
     assert run(["corpus", "stats", "texts", "-o", "a.svg", "--quiet"]) == 0

@@ -131,6 +131,7 @@ def test_uneven_times_are_refused_and_leave_no_file(clip: Clip, tmp_path: Path) 
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.long
 def test_a_long_clip_needs_no_more_room_to_be_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

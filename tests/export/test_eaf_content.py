@@ -159,6 +159,7 @@ def test_a_constraint_moves_a_part_of_the_signer(constraint: str, part: str) -> 
     assert part in ARTICULATORS
 
 
+@pytest.mark.long
 @given(SCORES)
 def test_annotations_of_a_tier_are_apart_and_inside_the_score(score: Score) -> None:
     end_ms = max(1, round(Fraction(score.duration) * 1000)) + 1

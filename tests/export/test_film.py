@@ -75,6 +75,7 @@ def is_skin(pixel: Pixels) -> bool:
     return r > g > b and r > b + 30
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("suffix", [".mp4", pytest.param(".webm", marks=pytest.mark.slow)])
 def test_a_film_has_its_frames_its_length_its_size_and_the_hand_where_it_is(
     waving: Clip, signer: Rig, tmp_path: Path, suffix: str
@@ -193,6 +194,7 @@ def test_a_sheet_has_no_picture_of_the_idle_ends(
     assert drawn[-1] == 1.5
 
 
+@pytest.mark.long
 def test_one_command_writes_pictures_and_films_of_a_clip(
     waving: Clip, signer: Rig, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

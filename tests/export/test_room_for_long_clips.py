@@ -49,6 +49,7 @@ def test_the_same_bytes_however_many_frames_are_posed_together(
     assert (tmp_path / "chunks").read_bytes() == (tmp_path / "whole").read_bytes()
 
 
+@pytest.mark.long
 def test_a_glb_is_not_held_more_than_once(signer: Rig, tmp_path: Path) -> None:
     times = np.arange(LONG) / 30
     q = signer.coordinates.idle + 0.1 * np.sin(times[:, None])

@@ -105,6 +105,7 @@ def test_a_long_name_is_shortened_to_its_box() -> None:
     assert any(text.endswith("…") and len(text) < 100 for text in _texts(draw(long)))
 
 
+@pytest.mark.long
 @given(SCORES)
 def test_boxes_stand_inside_their_parents_and_apart_from_each_other(score: Score) -> None:
     whole = nested(score)

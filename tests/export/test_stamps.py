@@ -30,6 +30,7 @@ def _asset(path: Path) -> dict[str, Any]:
     return asset
 
 
+@pytest.mark.long
 def test_the_report_counts_the_rules_of_the_text(made: azee.Compilation) -> None:
     found = made.report_json()["provenance"]
     assert isinstance(found, dict)
@@ -62,6 +63,7 @@ def test_the_command_tells_them(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert "\n1 application: 1 inferred\n" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_a_score_without_a_text_has_none(made: azee.Compilation, tmp_path: Path) -> None:
     from azee.compilation import perform
 

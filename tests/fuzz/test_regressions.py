@@ -31,6 +31,7 @@ def test_bytes_that_are_no_text(data: bytes) -> None:
     examine(data)
 
 
+@pytest.mark.long
 def test_what_the_search_starts_from() -> None:
     found = list(TEXTS.seeds())
     assert len(found) > len(REGRESSIONS) > 0

@@ -65,11 +65,13 @@ def test_a_text_with_mistakes_is_not_formatted() -> None:
     assert [d.code for d in caught.value.diagnostics] == ["syntax", "unclosed-paren"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("file", sorted(shipped().rglob("*.azee")), ids=lambda file: file.name)
 def test_shipped_rules_keep_their_meaning(file: Path) -> None:
     check(file.read_text(encoding="utf-8"))
 
 
+@pytest.mark.long
 @given(programs)
 def test_generated_programs_keep_their_meaning(text: str) -> None:
     assume(not read(text).diagnostics)

@@ -13,6 +13,7 @@ from azee_grammar.diagnostic import AZeeError
 LIMITS = Limits(depth=100, steps=5000, size=2000)
 
 
+@pytest.mark.long
 @given(programs)
 def test_any_program_evaluates_or_says_what_is_wrong(text: str) -> None:
     loaded = program(text, limits=LIMITS)

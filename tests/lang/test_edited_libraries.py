@@ -40,6 +40,7 @@ def mistakes(text: str) -> tuple[Diagnostic, ...]:
     return caught.value.diagnostics
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("old", "new"),
     [

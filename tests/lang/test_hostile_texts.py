@@ -32,6 +32,7 @@ def spent(text: str, monkeypatch: pytest.MonkeyPatch) -> tuple[int, tuple[Diagno
     return sum(machine.steps for machine in machines), diagnostics
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "hostile",
     [pytest.param(h, marks=pytest.mark.slow) if h.is_slow else h for h in HOSTILE],
@@ -71,6 +72,7 @@ def test_each_block_of_a_sync_is_paid_for_as_heavy(monkeypatch: pytest.MonkeyPat
     assert counts[1] - counts[0] >= HEAVY
 
 
+@pytest.mark.long
 def test_a_hundred_levels_and_a_thousand_applications_are_within_the_limits() -> None:
     assert program(nested(100)).check() == ()
     assert len(program(sequence(1000)).utterances) == 1
@@ -87,6 +89,7 @@ def test_a_mistake_that_is_met_again_and_again_is_carried_once() -> None:
     assert len(together((first, other)).diagnostics) == 2
 
 
+@pytest.mark.long
 def test_a_long_circle_is_told_briefly() -> None:
     (circle,) = (h for h in HOSTILE if h.codes == ("cyclic-sync",))
     (problem,) = program(circle.text).check()

@@ -87,6 +87,7 @@ def test_what_changes_is_checked_again_and_so_is_what_names_it(lib: Path) -> Non
         assert _codes(":sign-3\n", lib) == ["duplicate-definition"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "damage", [b"", b"{}", b"\x80\x05", b'{"format":1,"folder":"x","files":3}']
 )

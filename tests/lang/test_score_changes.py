@@ -141,6 +141,7 @@ numbers = st.integers(-64, 64).map(lambda n: n / 128)
 vectors = st.builds(Vec, numbers, numbers, numbers)
 
 
+@pytest.mark.long
 @given(st.sampled_from(CONSTRAINTS), vectors)
 def test_there_and_back_is_the_constraint(constraint: Constraint, v: Vec) -> None:
     back = Vec(-v.x, -v.y, -v.z)

@@ -74,6 +74,7 @@ def test_definitions_do_not_count_and_one_utterance_or_an_expression_can_be_chos
     ]
 
 
+@pytest.mark.long
 @given(programs)
 def test_every_application_lies_in_the_one_around_it(text: str) -> None:
     found = written(load(Source("<any>", text)))

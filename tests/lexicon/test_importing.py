@@ -69,6 +69,7 @@ def test_a_rule_that_somebody_wrote_before_stays(tmp_path: Path) -> None:
     assert "ngt-huis" in _import(tmp_path)[1]
 
 
+@pytest.mark.long
 def test_rules_are_sound_canonical_and_say_where_they_are_from(tmp_path: Path) -> None:
     folder = tmp_path / "ngt"
     written, _ = _import(folder)

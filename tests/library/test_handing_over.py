@@ -59,6 +59,7 @@ def timeless(made: Compilation) -> dict[str, object]:
     return {key: value for key, value in report.items() if key not in ("solve_s", "explain_s")}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("copied", [pickled, copy.deepcopy, copy.copy])
 def test_what_is_copied_equals(
     made: Compilation, copied: Callable[[Compilation], Compilation]
@@ -79,6 +80,7 @@ def test_bodies_are_shared_by_what_is_unpickled(made: Compilation) -> None:
     assert pickled(replace(made, rig=other)).rig.name == "another"
 
 
+@pytest.mark.long
 def test_a_pickle_is_read_where_its_body_was_not_loaded(
     tmp_path: Path, signer: Rig, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -42,6 +42,7 @@ def lines(text: str) -> list[str]:
     return text.replace("\r\n", "\n").split("\n")
 
 
+@pytest.mark.long
 def test_edits_break_a_text_and_mend_it(tmp_path: Path) -> None:
     async def scene(one: Editor) -> None:
         assert await one.open("a.azee", "# 😀\n:chat\n:personne\n") == []
@@ -60,6 +61,7 @@ def test_edits_break_a_text_and_mend_it(tmp_path: Path) -> None:
     play(tmp_path, scene)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 def test_accents_and_line_ends(tmp_path: Path, end: str) -> None:
     text = SIGNS.replace("\n", end)
@@ -87,6 +89,7 @@ def test_accents_and_line_ends(tmp_path: Path, end: str) -> None:
     play(tmp_path, scene)
 
 
+@pytest.mark.long
 def test_two_open_texts_of_which_one_defines_the_others_rule(tmp_path: Path) -> None:
     for name, text in (("signs.azee", "def old\n    :chat\n"), ("main.azee", MAIN)):
         (tmp_path / name).write_text(text, encoding="utf-8")
@@ -129,6 +132,7 @@ def test_two_open_texts_of_which_one_defines_the_others_rule(tmp_path: Path) -> 
     play(tmp_path, scene)
 
 
+@pytest.mark.long
 def test_arguments_and_blocks_are_renamed_with_all_their_uses(tmp_path: Path) -> None:
     async def scene(one: Editor) -> None:
         client, item = one.client, one.item("signs.azee")
@@ -154,6 +158,7 @@ def test_arguments_and_blocks_are_renamed_with_all_their_uses(tmp_path: Path) ->
     play(tmp_path, scene)
 
 
+@pytest.mark.long
 def test_what_is_offered_and_told_while_typing(tmp_path: Path) -> None:
     async def scene(one: Editor) -> None:
         client, item = one.client, one.item("a.azee")
@@ -180,6 +185,7 @@ def test_what_is_offered_and_told_while_typing(tmp_path: Path) -> None:
     play(tmp_path, scene)
 
 
+@pytest.mark.long
 def test_outline_symbols_and_colours(tmp_path: Path) -> None:
     async def scene(one: Editor) -> None:
         client, item = one.client, one.item("signs.azee")
@@ -210,6 +216,7 @@ def test_outline_symbols_and_colours(tmp_path: Path) -> None:
     play(tmp_path, scene)
 
 
+@pytest.mark.long
 def test_saved_changed_and_deleted_libraries_count_at_once(tmp_path: Path) -> None:
     library = tmp_path / "signs.azee"
     library.write_text("def old\n    :chat\n", encoding="utf-8")
@@ -253,6 +260,7 @@ def test_saved_changed_and_deleted_libraries_count_at_once(tmp_path: Path) -> No
 AT_THE_START = {"line": 0, "character": 0}
 
 
+@pytest.mark.long
 def test_a_request_that_nobody_can_read_is_answered(tmp_path: Path) -> None:
     requests: list[tuple[str, dict[str, object], str]] = [
         ("textDocument/hover", {"position": {"line": -1, "character": 0}}, "-1"),
@@ -287,6 +295,7 @@ IMPOSSIBLE = (
 )
 
 
+@pytest.mark.long
 def test_texts_at_impossible_addresses_hinder_no_other(tmp_path: Path) -> None:
     async def scene(one: Editor) -> None:
         client = one.client
@@ -309,6 +318,7 @@ def test_texts_at_impossible_addresses_hinder_no_other(tmp_path: Path) -> None:
     play(tmp_path, scene)
 
 
+@pytest.mark.long
 def test_a_file_of_a_library_sees_the_others(tmp_path: Path) -> None:
     shared = "def shared\n    azop\n        'shape 'nodefault\n        apply ^shape\n"
     folder = tmp_path / "lib"

@@ -133,6 +133,7 @@ def _place(found: Diagnostic) -> str | None:
     return None if found.span is None else f"{found.span.line}:{found.span.column}"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("block", "shown"), EXAMPLES, ids=str)
 def test_an_example_has_its_mistake_at_its_place_in_these_words(
     block: Block, shown: Block | None, request: pytest.FixtureRequest
@@ -177,6 +178,7 @@ def _entry(block: Block) -> str:
     return last
 
 
+@pytest.mark.long
 def test_every_code_has_its_entry_and_no_other() -> None:
     assert len(ENTRIES) == len(set(ENTRIES))
     assert set(ENTRIES) == codes()

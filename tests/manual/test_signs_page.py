@@ -37,6 +37,7 @@ def _run(block: Block, capsys: pytest.CaptureFixture[str]) -> None:
     assert _plain(told) == _plain(shown), command
 
 
+@pytest.mark.long
 def test_every_command_prints_what_the_page_shows(
     tmp_path: Path,
     signer: Rig,

@@ -135,6 +135,7 @@ def weights(animation: Animation) -> Array:
     return np.asarray(animation.clip.unit_weights)
 
 
+@pytest.mark.long
 def test_scores_blink_at_instants_of_their_own(signer: Rig) -> None:
     def played(duration: str, seed: int | None = None) -> Animation:
         pause = Group(Fraction(duration), blocks=())

@@ -47,6 +47,7 @@ def test_a_raised_arm_stays_where_it_is(signer: Rig) -> None:
     assert abs(found[0, signer.coordinates.index["arm_L.abduction"]]) < 0.01
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "body",
     ["signer", *(pytest.param(b, marks=pytest.mark.slow) for b in shipped_rigs() if b != "signer")],

@@ -82,6 +82,7 @@ def written_anew(recording: Recording, turn: Floats, scale: float) -> str:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("turn", "scale"),
     [
@@ -118,6 +119,7 @@ def test_a_mirror_image_and_a_body_that_was_changed_are_not_the_rigs_own(
         own_clip(parse_bvh(text.replace("finger2_1_L", "index_L")), signer)
 
 
+@pytest.mark.long
 def test_retargeting_the_bodys_own_skeleton_changes_nothing(
     clip: Clip, recording: Recording, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -76,6 +76,7 @@ def part_of_the_way(share: float) -> Floats:
     return np.asarray(FREE + share * (IN_CHEST - FREE))
 
 
+@pytest.mark.long
 def test_a_hand_in_the_chest_is_told_with_its_depth_time_and_parts() -> None:
     shares = (0.0, 0.0, 0.95, 1.0, 0.95, 0.0, 0.0, 0.95, 0.0)
     times = [2.0 + 0.1 * n for n in range(len(shares))]
@@ -120,6 +121,7 @@ def test_fingers_that_cross_elsewhere_than_at_the_touch_are_not_intended() -> No
     assert [p.intended for p in search([CROSSED], [0.5], touch)] == [False]
 
 
+@pytest.mark.long
 def test_a_thumb_in_the_chest_is_intended_where_the_score_asks_for_that_touch() -> None:
     """The deepest of all pairs of the two parts tells, here the thumb's tip in the chest."""
     thumb_in = posture(

@@ -72,6 +72,7 @@ def test_a_bvh_under_our_own_names_comes_back(signer: Rig, clip: Clip, tmp_path:
         assert np.degrees(np.abs(off).max()) < 8, name
 
 
+@pytest.mark.long
 def test_the_command_tells_what_was_kept(
     signer: Rig, clip: Clip, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -85,6 +86,7 @@ def test_the_command_tells_what_was_kept(
     assert "error[not-a-clip]" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_a_clip_command_carries_another_skeletons_motion_over(
     signer: Rig, clip: Clip, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -191,6 +193,7 @@ def test_a_figure_of_any_size_makes_the_same_movement(signer: Rig) -> None:
     np.testing.assert_allclose(made[1], made[0], atol=1e-4)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("frames", [1, 2, 3, 4, 8, 9])
 def test_any_number_of_frames_can_be_retargeted(
     signer: Rig, frames: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -274,6 +277,7 @@ def test_what_is_no_bvh_is_named_with_a_remedy(
         assert "Blender does" in said
 
 
+@pytest.mark.long
 def test_bvh_is_known_whatever_its_suffix(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -322,6 +326,7 @@ def test_bvh_of_another_body_that_ships_is_that_bodys_clip(
     assert moved == pytest.approx(0.2, abs=1e-6)
 
 
+@pytest.mark.long
 def test_no_joint_goes_from_limit_to_limit_in_a_frame(signer: Rig) -> None:
     """Palms that turn once round, which no forearm does: it must go back, and takes its time."""
     still = posed(signer, 60, {

@@ -33,6 +33,7 @@ sync
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("bone", "key", "start", "end", "path"),
     [

@@ -61,6 +61,7 @@ def test_a_change_reads_as_a_diff_of_its_line() -> None:
     assert "-x = a < b\n+x = a <= b\n" in change.diff(source, "m.py") + "\n"
 
 
+@pytest.mark.long
 def test_tests_belong_to_what_they_import_and_to_their_folder() -> None:
     tree = Tree(ROOT)
     related = [path.name for path in tree.related("azee.clip.blend")]

@@ -29,6 +29,7 @@ def made() -> azee.Compilation:
     return azee.compile("key .4 (place @I_TIP(s) @CH)\n")
 
 
+@pytest.mark.long
 def test_each_kind_shows_itself(made: azee.Compilation, signer: Rig) -> None:
     assert str(display.score(made.score)["image/svg+xml"]).startswith("<svg")
     whole = str(display.compilation(made)["text/html"])

@@ -72,6 +72,7 @@ LOADS: dict[tuple[str, ...], set[str]] = {
 """Of the heavy packages, those that a command may load."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("arguments", LOADS, ids=" ".join)
 def test_a_command_loads_no_more_than_it_needs(
     arguments: tuple[str, ...], python: Python, tmp_path: Path

@@ -58,6 +58,7 @@ def test_faces_are_told_apart_if_they_differ(other_angles: bool) -> None:
     assert [*same.lines()][-1].startswith(f"{100 * same.right:.1f} % of 30 faces")
 
 
+@pytest.mark.long
 def test_every_facial_rule_is_drawn_and_looks_different_at_every_angle(signer: Rig) -> None:
     names = [*facial_rules()]
     assert len(names) == 23

@@ -84,6 +84,7 @@ def test_numbers_leave_the_trunk_alone(number: str) -> None:
     assert found.at_limits.share == 0.0
 
 
+@pytest.mark.long
 def test_a_negation_inside_another_rule_shakes_the_head() -> None:
     clip, rig = made(NESTED).clip, made(NESTED).rig
     yaw = clip.coordinates[:, rig.coordinates.index["head.axial"]]

@@ -18,6 +18,7 @@ def piped(text: str, folder: Path, *arguments: str) -> subprocess.CompletedProce
     )  # fmt: skip
 
 
+@pytest.mark.long
 def test_items_are_read_as_in_a_file(tmp_path: Path) -> None:
     text = "# one\nadd 1\n\n    2\ndef four\n    mul(\n2,\n  2)\nfour()\n\n/doc @CH\n"
     done = piped(text, tmp_path)

@@ -196,6 +196,7 @@ def test_what_was_typed_is_saved_as_a_file_that_gives_the_same(
     assert "cannot-write" in sheet.taken()
 
 
+@pytest.mark.long
 def test_pictures_of_the_score_and_of_a_posture(repl: Repl, sheet: Sheet, tmp_path: Path) -> None:
     answer(repl, SYNC)
     for name in ("score.png", "score.svg"):

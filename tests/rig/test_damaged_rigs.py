@@ -154,6 +154,7 @@ def _set(name: str, row: int, value: float) -> Callable[[Arrays], object]:
     return change
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [

@@ -122,6 +122,7 @@ def test_a_target_moves_the_vertices_that_the_file_says(tmp_path: Path, rigid: N
     assert "cheekPuff" not in made.mesh.units
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "shape",
     [

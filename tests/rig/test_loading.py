@@ -146,6 +146,7 @@ def test_an_edited_description_counts(signer: Rig, tmp_path: Path) -> None:
     assert load_rig(folder).name == "sister"
 
 
+@pytest.mark.long
 def test_few_bodies_are_kept(signer: Rig, tmp_path: Path) -> None:
     found = [weakref.ref(load_rig(copied(signer, tmp_path / f"{n}"))) for n in range(8)]
     gc.collect()

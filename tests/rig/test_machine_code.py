@@ -183,6 +183,7 @@ def test_arrays_must_lie_row_by_row() -> None:
             kernel(1, wrong)
 
 
+@pytest.mark.long
 def test_all_our_kernels_are_kept(python: Python) -> None:
     """Else each process would import numba: they name nothing that machine code cannot have."""
     script = """

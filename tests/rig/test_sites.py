@@ -40,6 +40,7 @@ def test_every_bone_and_site_of_azee_is_there(signer: Rig) -> None:
         assert site.bone == expected, name
 
 
+@pytest.mark.long
 def test_at_bind_they_lie_on_the_skin_of_their_bone_and_look_outward(signer: Rig) -> None:
     q = signer.coordinates.bind
     placed = [place(signer, q, name) for name in signer.sites]

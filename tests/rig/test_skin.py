@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from azee_rig.mesh import vertex_normals
 from azee_rig.rig import Rig
@@ -40,6 +41,7 @@ def test_normals_of_a_square() -> None:
     np.testing.assert_allclose(normals, np.tile([0.0, 0.0, 1.0], (4, 1)))
 
 
+@pytest.mark.long
 def test_skin_is_linear_blending(signer: Rig) -> None:
     """Σ_j w_j (R_j (v − p̄_j) + p_j), with a matrix of weights, in any posture and with a face."""
     random = np.random.default_rng(5)

@@ -15,6 +15,7 @@ from azee_solver.evaluate import evaluator
 from azee_solver.geometry import Side
 
 
+@pytest.mark.long
 def test_distances_are_those_of_the_farthest_touch(signer: Rig) -> None:
     body = evaluator(signer, Side.RIGHT)
     idle = signer.coordinates.idle[None]

@@ -53,6 +53,7 @@ def test_a_clip_comes_back_number_by_number(db: str, signer: Rig) -> None:
     assert Path("same.npz").read_bytes() == Path("NOD.npz").read_bytes()
 
 
+@pytest.mark.long
 def test_a_recording_of_another_skeleton_keeps_its_finger_errors(
     db: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -69,6 +70,7 @@ def test_a_recording_of_another_skeleton_keeps_its_finger_errors(
         assert list(problems(signs)) == []
 
 
+@pytest.mark.long
 def test_the_same_file_is_a_sign_of_each_body(
     db: str, signer: Rig, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -33,6 +33,7 @@ def names(signs: SignDatabase, query: Query = ALL_SIGNS) -> list[str]:
     return [str(sign.identity) for sign in signs.find(query)]
 
 
+@pytest.mark.long
 def test_what_is_stored_is_found_and_comes_back(signs: SignDatabase) -> None:
     stored = signs.add(facts("BONJOUR", "greeting", language="lsf"), motion("b"), STICK)
     assert signs.one("BONJOUR") == stored
@@ -78,6 +79,7 @@ def test_a_name_is_taken_once_for_each_skeleton_language_and_variant(signs: Sign
     assert signs.one("A", variant="2").identity == Identity("A", variant="2")
 
 
+@pytest.mark.long
 def test_tags_come_and_go(signs: SignDatabase) -> None:
     sign = signs.add(facts("A", "x", "y"), motion("a"), STICK)
     assert signs.tag(sign, ["z", "x"], ["y"]).facts.tags == ("x", "z")
@@ -85,6 +87,7 @@ def test_tags_come_and_go(signs: SignDatabase) -> None:
     assert names(signs, Query(tag="z")) == ["A"]
 
 
+@pytest.mark.long
 def test_renaming_keeps_the_motion_and_takes_no_other_s_name(signs: SignDatabase) -> None:
     sign = signs.add(facts("A", "x"), motion("a"), STICK)
     signs.add(facts("B"), motion("b"), STICK)
@@ -152,6 +155,7 @@ FACTS = st.builds(
 )
 
 
+@pytest.mark.long
 @settings(max_examples=examples(0.4))
 @given(known=FACTS, clip=st.binary(max_size=200), original=st.binary(max_size=200))
 def test_every_sign_comes_back_as_it_was(
@@ -169,6 +173,7 @@ def test_every_sign_comes_back_as_it_was(
             assert database.find(Query(word=tag)) == [found]
 
 
+@pytest.mark.long
 def test_damaged_blobs_are_told_and_the_rest_is_served(signs: SignDatabase) -> None:
     sign = signs.add(facts("A"), motion("a"), STICK)
     whole = signs.add(facts("B"), motion("b"), STICK)
@@ -190,6 +195,7 @@ def test_half_a_sign_would_be_found(signs: SignDatabase) -> None:
     assert [str(p) for p in problems(signs)] == ["the sign `A` has no movement"]
 
 
+@pytest.mark.long
 def test_migrations_make_the_tables_that_the_code_uses(signs: SignDatabase) -> None:
     from alembic.autogenerate import compare_metadata
     from alembic.migration import MigrationContext
@@ -201,6 +207,7 @@ def test_migrations_make_the_tables_that_the_code_uses(signs: SignDatabase) -> N
         assert context.get_current_revision() == VERSION
 
 
+@pytest.mark.long
 def test_other_versions_and_other_databases_are_refused(
     signs: SignDatabase, database_place: str
 ) -> None:
@@ -221,6 +228,7 @@ def test_other_versions_and_other_databases_are_refused(
             use(database_place)
 
 
+@pytest.mark.long
 def test_making_a_database_again_keeps_its_signs(signs: SignDatabase, database_place: str) -> None:
     signs.add(facts("A"), motion("a"), STICK)
     again, before = SignDatabase.create(database_place)
@@ -229,6 +237,7 @@ def test_making_a_database_again_keeps_its_signs(signs: SignDatabase, database_p
         assert names(again) == ["A"]
 
 
+@pytest.mark.long
 def test_a_row_that_breaks_a_rule_of_the_tables_is_refused(signs: SignDatabase) -> None:
     signs.add(facts("A"), motion("a"), STICK)
     row = {

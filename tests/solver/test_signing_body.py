@@ -94,6 +94,7 @@ def test_a_hand_in_the_chest_is_seen_inside(signer: Rig, planted: SolveReport) -
     assert all(limb.endswith("_R") for limb, _ in deep)
 
 
+@pytest.mark.long
 def test_parts_that_hang_loose_on_a_limb_enter_nothing(signer: Rig) -> None:
     """Were the hands hair, only the sleeves would be in the chest."""
     entered = {p.limb for p in mesh_penetration(signer, in_chest(signer)) if p.body == "trunk"}
@@ -239,6 +240,7 @@ def test_out_of_reach_is_the_nearest_posture_any_start_finds(signer: Rig) -> Non
         assert report.constraints[0].residual < other.constraints[0].residual + 0.5e-3
 
 
+@pytest.mark.long
 def test_hands_touch_close_to_the_body(signer: Rig) -> None:
     weak, strong = Bone("palm", W), Bone("palm", S)
     crowded: list[list[Constraint]] = [

@@ -110,6 +110,7 @@ def test_later_spellings_give_the_exponent_of_practice() -> None:
     assert fit_practice(WORDS) == pytest.approx(published_practice())
 
 
+@pytest.mark.long
 def test_the_default_model_misses_by_five_times_less_than_constants() -> None:
     words = drawn_words()
     held_out = validated(words, "ridge", "words held out")

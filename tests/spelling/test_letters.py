@@ -74,6 +74,7 @@ def test_a_letter_misses_nothing_and_no_finger_passes_through_another(
     assert fingers == []
 
 
+@pytest.mark.long
 def test_j_is_drawn_down_and_inwards() -> None:
     made = performed("asl", "letter-J", load_rig())
     top, bottom, hook = (site(made, "L_TIP_R", share) for share in (0.1, 0.55, 0.95))

@@ -201,6 +201,7 @@ def test_a_clip_is_warped(signer: Rig) -> None:
     assert run([*command, "--start", "1.4", "-o", "late.npz"]) == 1
 
 
+@pytest.mark.long
 def test_without_the_extra_a_message_says_what_to_install(python: Python) -> None:
     script = (
         "import sys; sys.modules['sklearn'] = None\n"

@@ -10,6 +10,7 @@ import pytest
 from azee.cli.main import run
 
 
+@pytest.mark.long
 def test_a_word_becomes_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     report = tmp_path / "cab.json"
     clip = tmp_path / "cab.npz"

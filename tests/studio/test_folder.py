@@ -67,6 +67,7 @@ def test_links_inside_the_folder_are_followed(folder: Folder) -> None:
     assert (folder.root / "same.azee").is_symlink()
 
 
+@pytest.mark.long
 @given(
     st.lists(st.sampled_from(["..", ".", "a", "sub", "%2e%2e", "\\", "~"]) | st.text(max_size=4))
 )

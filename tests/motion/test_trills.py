@@ -8,6 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -17,6 +18,8 @@ from azee.compilation import score_of
 from azee.lang.program import load
 from azee.lang.reflection import MIRROR
 from azee.motion.overlay.trill import FADE_S, Oscillation
+from azee.motion.overlay.trill import oscillation as oscillation_on_body
+from azee.motion.overlay.turning import angular_velocity
 from azee.motion.tasks.requirement import Requirement
 from azee.motion.tasks.timed_task import TimedTask
 from azee.score.interval import Interval
@@ -24,6 +27,7 @@ from azee.score.score import Key, Score, leaves
 from azee_grammar.source import Source
 from azee_rig.rig import Rig
 from azee_solver.constraint import Trill
+from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Bone, Side, Vec
 
 SEEN_M = 0.03
@@ -122,3 +126,28 @@ def test_a_mirrored_trill_turns_to_the_other_side(amp: int, back: int, phase_deg
     assert isinstance(other, Trill)
     assert other.bone.side is Side.WEAK
     np.testing.assert_allclose(angles(other), -angles(trill), atol=1e-9)
+
+
+@pytest.mark.parametrize(("off_deg", "helped"), [(0, False), (20, False), (40, True)])
+def test_the_joint_before_helps_where_a_bones_own_cannot_turn(
+    off_deg: int, helped: bool, signer: Rig
+) -> None:
+    """The wrist bends about two axes; what an axis lacks of their plane is the forearm's."""
+    evaluator, q = Evaluator(signer, Side.RIGHT), signer.coordinates.idle
+    index, palm = signer.coordinates.index, signer.bones["palm_R"]
+    bend, aside = (
+        angular_velocity(signer, q, index[f"palm_R.{name}"], palm.node)
+        for name in ("flexion", "deviation")
+    )
+    across = np.cross(bend, aside)
+    off = math.radians(off_deg)
+    wanted = math.cos(off) * bend + math.sin(off) * across / np.linalg.norm(across)
+    parent = int(signer.chain.parents[palm.origin_node])
+    axis = signer.chain.frames(q).rotations[parent].T @ wanted
+    trill = Trill(PALM, Vec(*axis.tolist()), 4.0, math.radians(10.0))
+    whole = Interval(Fraction(0), Fraction(1))
+    found = oscillation_on_body(oscillation(trill, whole).task, q, evaluator)
+    moved = {signer.coordinates.names[v] for v in np.flatnonzero(np.abs(found.direction) > 1e-6)}
+    assert moved <= {"palm_R.flexion", "palm_R.deviation"} or helped
+    assert ("f_arm_R.pronation" in moved) == helped
+    assert found.turnable == pytest.approx(1.0 if helped else math.cos(off), abs=0.02)

@@ -40,6 +40,9 @@ def main(arguments: Sequence[str]) -> None:
     """Run the named benchmarks, one after the other."""
     names = list(takewhile(MODULES.__contains__, arguments))
     options = list(arguments[len(names) :])
+    if not names and options and options[0] in ("-h", "--help"):
+        print(f"{(__doc__ or '').strip()}\n\nThere are: {', '.join(MODULES)}")
+        return
     if options and not names:
         sys.exit(f"no benchmark is called {options[0]}; there are: {', '.join(MODULES)}")
     for name in names or MODULES:

@@ -44,9 +44,10 @@ from azee.motion.timing.performed import TIMINGS, Performance, Timing, performed
 from azee.motion.timing.recalled import recalled
 from azee.motion.timing.remembering import RememberingSolver
 from azee.motion.timing.ways import Ways
+from azee.quality.constraint_results import constraint_results
 from azee.quality.likeness import likeness
 from azee.quality.measures import PenetrationSearch, block_times, peaks
-from azee.quality.motion_report import MotionReport, constraint_results, limit_excess
+from azee.quality.motion_report import MotionReport, limit_excess
 from azee.quality.recordings import as_played
 from azee.quality.task_spans import task_spans
 from azee.score.provenance import Provenance

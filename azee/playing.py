@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from azee.clip.blend import Blend
     from azee.lang.program import Program
     from azee.motion.keys.rest import Rest
-    from azee.quality.motion_report import ConstraintResult
+    from azee.quality.constraint_results import ConstraintResult
     from azee.score.score import Score
     from azee.signs.database import SignDatabase
     from azee.signs.sequence import Played, PlayedSign

@@ -35,8 +35,8 @@ LEAST_SEEN = 0.5
 SIZE = 0.15
 """By how much the root's markers may be farther apart than the model's."""
 SMOOTHER = 10.0
-"""Factor of the cost of rough joints: by 1, noise of a millimetre made fitted markers jump by 6.8 mm
-within a hundredth of a second, by 10 by 4.4, and errors grow by .006 mm."""
+"""Factor of the cost of rough joints: by 1, noise of a millimetre made fitted markers jump by 6.8
+mm within a hundredth of a second, by 10 by 4.4, and errors grow by .006 mm."""
 NOISY = 1.5
 """Markers that are rougher than the model's by this factor are noisy: the ridge allows for it."""
 FAST = 4.0

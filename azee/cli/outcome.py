@@ -13,7 +13,7 @@ from azee.wording import counted
 if TYPE_CHECKING:
     from azee.compilation import Compilation
     from azee.lang.shortcuts import Taken
-    from azee.quality.motion_report import ConstraintResult
+    from azee.quality.constraint_results import ConstraintResult
 
 
 def outcome_lines(made: Compilation, written: Sequence[Path]) -> str:

@@ -9,8 +9,9 @@ from azee.wording import counted
 from azee_solver.outcome import Outcome
 
 if TYPE_CHECKING:
+    from azee.quality.constraint_results import ConstraintResult
     from azee.quality.measures import Penetration
-    from azee.quality.motion_report import ConstraintResult, MotionReport
+    from azee.quality.motion_report import MotionReport
     from azee_solver.outcome import Strain
 
 

@@ -19,7 +19,8 @@ from azee.wording import counted
 from azee_solver.outcome import Outcome
 
 if TYPE_CHECKING:
-    from azee.quality.motion_report import ConstraintResult, MotionReport
+    from azee.quality.constraint_results import ConstraintResult
+    from azee.quality.motion_report import MotionReport
 
 
 def summary(report: MotionReport, took_s: float) -> Iterator[Line]:

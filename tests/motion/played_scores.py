@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 
 from azee.animation import Animation, animate
-from azee.quality.motion_report import ConstraintResult
+from azee.quality.constraint_results import ConstraintResult
 from azee.score.interval import Interval
 from azee.score.score import Block, Call, Group, Hold, Key, Score
 from azee_rig.load import load_rig

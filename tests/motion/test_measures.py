@@ -14,8 +14,8 @@ from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.limbs import Limbs
 from azee.motion.tasks.schedule import bind
 from azee.motion.tasks.timed_task import EarlyEnd
+from azee.quality.constraint_results import constraint_results
 from azee.quality.measures import block_times, peaks
-from azee.quality.motion_report import constraint_results
 from azee.score.interval import Interval
 from azee.score.score import Block, Group, Key
 from azee_rig.load import load_rig

@@ -7,8 +7,9 @@ import math
 import pytest
 
 import azee
+from azee.quality.constraint_results import ConstraintResult
 from azee.quality.likeness import Likeness
-from azee.quality.motion_report import ConstraintResult, MotionReport
+from azee.quality.motion_report import MotionReport
 from azee.quality.outcome import amount, misses, outcome, shortfall
 from azee.wording import counted
 

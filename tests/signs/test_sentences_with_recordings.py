@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import azee
 from azee.compilation import Compilation
-from azee.quality.motion_report import ConstraintResult
+from azee.quality.constraint_results import ConstraintResult
 from azee.score.score import Group
 from azee_rig.rig import Rig
 from azee_solver import kinematics

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import time
 from collections.abc import Callable
@@ -31,6 +32,8 @@ class Terminal:
             cwd=str(folder),
             env=variables,
             dimensions=(ROWS, COLUMNS),
+            # What starts the tests may ignore Ctrl-C, as shells have it for jobs in the background.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )
 
     def __enter__(self) -> Terminal:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from azee.motion.keys.residual_monitor import ResidualMonitor
 from azee.motion.keys.transpath import AnchoredPath
+from azee.motion.projection.reference import Reference
 from azee.motion.tasks.limbs import CARRIERS, TRUNK, is_finger, limb_of_coordinate
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
@@ -66,27 +67,17 @@ class FrameProblems:
     factors: Mapping[int, float]
     options: SolveOptions
 
-    def trajectory(
-        self,
-        times: Sequence[Fraction],
-        reference: Array,
-        accented: Mask,
-        played: Mask,
-        fps: float,
-    ) -> Trajectory:
-        """Return the problem of the frames at exact times, near a movement.
-
-        Args: reference: (T, V). accented: (T, V), where accents ask for what the reference has.
-            played: (T, V), where the reference is kept.
-        """
+    def trajectory(self, reference: Reference, fps: float) -> Trajectory:
+        """Return the problem of the frames of a movement, near it and inside its limits."""
+        times = reference.times
         coordinates = self.monitor.evaluator.rig.coordinates
         free_keep = self.options.posture * np.array(coordinates.stiffness) ** 2
         carriers = [limb_of_coordinate(name) in CARRIERS for name in coordinates.names]
         free_keep[carriers] *= CARRIER_SHARE
         keep = np.tile(free_keep, (len(times), 1))
-        keep[accented] = (ACCENT_SHARE * self.options.tolerance.angle_rad) ** -2
-        fixed = played.copy()
-        target = np.clip(reference, coordinates.lower, coordinates.upper)
+        keep[reference.accented] = (ACCENT_SHARE * self.options.tolerance.angle_rad) ** -2
+        fixed = reference.played.copy()
+        target = np.clip(reference.q, reference.lower, reference.upper)
         of_frame = np.empty(len(times), dtype=np.int64)
         programs: list[Program] = []
         moving: list[_Moving] = []
@@ -103,11 +94,11 @@ class FrameProblems:
                     near, coordinates.lower[members], coordinates.upper[members]
                 )
             moving += self._paths(problem, rows, times)
-            moving += self._moving_targets(problem, rows, times, reference)
+            moving += self._moving_targets(problem, rows, times, reference.q)
         smooth = free_keep * (SMOOTH_S * fps) ** (2 * ORDER)
         refilling = _Refilling.of(self.monitor.evaluator, moving)
         return Trajectory(
-            programs, of_frame, target, keep, fixed, smooth, coordinates.lower, coordinates.upper,
+            programs, of_frame, target, keep, fixed, smooth, reference.lower, reference.upper,
             self.options.overlap, refilling,
         )  # fmt: skip
 

@@ -1,4 +1,4 @@
-// node studio_page.mjs JOURNEY URL PICTURES
+// node studio_page.mjs JOURNEY URL PICTURES [FILE]
 // Uses the page of `azee studio` in headless Chromium. JOURNEY is author, keys, pose, moved, typing,
 // text or times.
 // Prints what was seen as JSON; PICTURES is a folder for screenshots, or empty.
@@ -6,7 +6,7 @@ import { readFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
 import { chromium } from 'playwright-core';
 
-const [journey, url, pictures] = process.argv.slice(2);
+const [journey, url, pictures, file = 'untitled.azee'] = process.argv.slice(2);
 const SLOW_MS = 120_000;
 const server = await chromium.launchServer({
   executablePath: process.env.CHROMIUM,
@@ -18,6 +18,7 @@ const browser = await chromium.connect(server.wsEndpoint());
 const complaints = [], foreign = [], own = [url];
 
 async function opened(width = 1366, height = 768, search = '') {
+  const query = `?file=${file}${search}`;
   const page = await browser.newPage({ viewport: { width, height }, acceptDownloads: true });
   page.setDefaultTimeout(SLOW_MS);
   page.on('pageerror', error => complaints.push(error.message));
@@ -25,7 +26,7 @@ async function opened(width = 1366, height = 768, search = '') {
     const address = request.url();
     if (!own.some(start => address.startsWith(start)) && !/^(blob|data):/.test(address)) foreign.push(address);
   });
-  await page.goto(url + search);
+  await page.goto(url + query);
   await page.waitForFunction(() => window.azeeStudio?.document.file);
   return page;
 }
@@ -43,10 +44,11 @@ const at = (page, time) => page.evaluate(t => {
 const farthest = (a, b) => Math.max(...Object.keys(a).map(name =>
   Math.hypot(...a[name].map((x, i) => x - b[name][i]))));
 
-/** Returns the faults that axe-core calls serious or critical. */
-async function faults(page) {
-  await page.evaluate(readFileSync('node_modules/axe-core/axe.min.js', 'utf8'));
-  const { violations } = await page.evaluate(() => axe.run());
+/** Returns the faults that axe-core calls serious or critical, of the page or of a part of it. */
+async function faults(page, part = 'html') {
+  if (!await page.evaluate(() => window.axe))
+    await page.evaluate(readFileSync('node_modules/axe-core/axe.min.js', 'utf8'));
+  const { violations } = await page.evaluate(within => axe.run(within), part);
   return violations.filter(({ impact }) => ['serious', 'critical'].includes(impact))
     .map(({ id, nodes }) => `${id}: ${nodes.map(node => node.target.join(' ')).join(', ')}`);
 }
@@ -99,6 +101,21 @@ async function author() {
   told.blocks = await page.locator('.blocks .block-row code').allTextContents();
   await shot(page, 'blocks');
 
+  await at(page, 0.7 * end);
+  await page.click('#tab-pose');
+  await posed(page);
+  await drag(page, '@I_TIP(s)', 30, -25);
+  await posed(page);
+  await shot(page, 'corrected');
+  await page.click('.proposals button');
+  told.corrected = await text(page);
+  await signed(page);
+  await page.click('.cm-content');
+  await page.keyboard.press('Control+z');
+  told.undone = await text(page);
+  await page.keyboard.press('Control+y');
+  await signed(page);
+
   const before = await at(page, 1);
   await page.click('#tab-settings');
   await page.selectOption('.panel select[aria-label=Body]', 'child');
@@ -123,14 +140,14 @@ async function author() {
   told.reloaded = await text(page);
   told.state = await page.textContent('.state');
   told.faults = await faults(page);
-  for (const panel of ['blocks', 'reasons', 'versions', 'film', 'settings']) {
+  for (const panel of ['blocks', 'pose', 'reasons', 'versions', 'film', 'settings']) {
     await page.click(`#tab-${panel}`);
     await page.waitForTimeout(200);
-    told.faults.push(...await faults(page));
+    told.faults.push(...await faults(page, '#panel'));
   }
   await page.close();
   for (const [width, height] of [[1366, 768], [1024, 768], [390, 844]]) {
-    const other = await opened(width, height, width < 500 ? '?lang=fr' : '');
+    const other = await opened(width, height, width < 500 ? '&lang=fr' : '');
     await signed(other);
     await at(other, 1.9);
     await other.waitForTimeout(300);
@@ -155,7 +172,7 @@ const posed = page => page.waitForFunction(() => azeeStudio.posing.idle);
 
 /** Poses the body of a text: a hand, a palm, a finger and the face; then chooses what is written. */
 async function pose() {
-  const page = await opened(1366, 768, '?file=pose.azee');
+  const page = await opened();
   const told = {};
   await page.click('.cm-content');
   await page.keyboard.insertText('key 1\n    place @I_TIP(s) ^Mssp\n');
@@ -304,7 +321,7 @@ async function shown() {
   return { text: await text(page), notices: await page.locator('.notice').allTextContents() };
 }
 
-/** Edits a sentence and prints how long each edit took to move the signer; then frames. */
+/** Edits a sentence and tells how long each edit took to move the signer; then frames and drags. */
 async function times() {
   const page = await opened();
   await page.click('.cm-content');
@@ -315,10 +332,14 @@ async function times() {
     await signed(page);
     await page.waitForTimeout(600);
   }
-  return page.evaluate(() => ({
-    edits_ms: azeeStudio.latencies.map(Math.round), worker_ms: azeeStudio.workerTimes,
+  const told = await page.evaluate(() => ({
+    edits_ms: azeeStudio.latencies, worker_ms: azeeStudio.workerTimes,
     device: azeeStudio.signer.device, frames_ms: azeeStudio.signer.timed(40),
   }));
+  await page.click('#tab-pose');
+  await posed(page);
+  for (let i = 0; i < 4; i++) await drag(page, '@I_TIP(s)', 40 - 20 * i, -30 + 15 * i, 40).then(() => posed(page));
+  return { ...told, drags_ms: await page.evaluate(() => azeeStudio.posing.answers) };
 }
 
 const journeys = { author, keys, pose, moved, typing, text: shown, times };

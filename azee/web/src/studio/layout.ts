@@ -56,6 +56,7 @@ export class Layout {
     this.open = panel;
     for (const [name, tab] of this.tabs) tab.setAttribute('aria-expanded', String(name === panel));
     this.panel.hidden = panel === null;
+    this.main.dataset['panel'] = panel ?? '';
     this.main.classList.toggle('with-panel', panel !== null);
     if (panel) this.panel.replaceChildren(h('h2', {}, this.tabs.get(panel)!.textContent), this.bodies[panel]);
     this.shown(panel);

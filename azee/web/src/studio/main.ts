@@ -16,7 +16,7 @@ import type { Signer } from './signer';
 import { SignerPane } from './signer-pane';
 import { chosenLanguage, type Language, LANGUAGES, wordsOf } from './words';
 
-const COMPILE_MS = 40; // after the last key
+const COMPILE_MS = 10; // after the last key; a newer text stops an older one
 const RULES_MS = 700;
 const parameters = new URLSearchParams(location.search);
 
@@ -26,8 +26,8 @@ document.documentElement.lang = language;
 document.title = words.title;
 
 class Studio {
-  /** Milliseconds from keys to the picture with the movement that they made; for measuring. */
-  readonly latencies: number[] = [];
+  /** Milliseconds after an edit when its text was sent, its movement came and was drawn; for measuring. */
+  readonly latencies: { sent: number; came: number; drawn: number }[] = [];
   /** Milliseconds that the steps of the server took, for each of them. */
   readonly workerTimes: Record<string, number>[] = [];
   readonly notices = new Notices();
@@ -45,6 +45,7 @@ class Studio {
   private chosen: Block | null = null;
   private lastTyped = 0;
   private begun = 0;
+  private sentAt = 0;
   private timer = 0;
   private rulesTimer = 0;
   private lsp = new Set<(message: string) => void>();
@@ -222,6 +223,7 @@ class Studio {
     if (!this.live.open || !this.document.file) return;
     this.sent += 1;
     this.begun = since;
+    this.sentAt = performance.now();
     this.live.send({ ...this.job(), kind: 'compile' });
   }
 
@@ -243,9 +245,11 @@ class Studio {
   private showClip(answer: Extract<Answer, { kind: 'clip' }>, data: ArrayBuffer): void {
     this.blocks = answer.blocks;
     this.lead = answer.lead_s;
-    const { begun } = this;
+    const { begun, sentAt } = this;
+    const came = performance.now();
     this.signer?.show(data, () => {
-      this.latencies.push(performance.now() - begun);
+      const [sent, drawn] = [sentAt - begun, performance.now() - begun];
+      this.latencies.push({ sent, came: came - begun, drawn });
       this.workerTimes.push(answer.ms);
       this.shownNumber = answer.number;
     });

@@ -263,11 +263,11 @@ def journey(seed: int, texts: Sequence[str]) -> int:
     for n in range(8):
         before = text
         text = edit_text(text, chance, n)
-        if parse(Source("a", text), template=True).diagnostics:
-            text = before  # lines in parentheses may not hold tabs beside spaces
+        document = Document.of(text)
+        if document.diagnostics:  # lines in parentheses may not hold tabs beside spaces
+            text, document = before, Document.of(before)
         assert words(text) == words(before)
         assert comments(before) <= comments(text)
-        document = Document.of(text)
         edit = any_edit(document, chance)
         if edit is None or (done := check(document, edit)) is None:
             continue

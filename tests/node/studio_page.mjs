@@ -227,12 +227,11 @@ async function pose() {
   await page.keyboard.press('Enter');
   await posed(page);
   told.gaze = await page.locator('.proposals code').first().textContent();
-  told.faults = await faults(page);
   await shot(page, 'pose-face');
   await page.setViewportSize({ width: 390, height: 844 });
   await page.waitForTimeout(300);
   await shot(page, 'pose-390');
-  told.wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  told.wide_390 = await page.evaluate(() => document.documentElement.scrollWidth);
   return told;
 }
 
@@ -282,7 +281,7 @@ async function keys() {
 
 /** Types numbered comments and prints each; ends when the text cannot be sent, or when killed. */
 async function typing() {
-  const page = await opened();
+  const page = await opened(1024);
   await page.click('.cm-content');
   await page.keyboard.press('Control+End');
   console.log(JSON.stringify({ browser: server.process().pid }));
@@ -297,7 +296,7 @@ async function typing() {
 /** Types when the server was killed, and goes to the address of the next; both are told on stdin. */
 async function moved() {
   const told = createInterface({ input: process.stdin })[Symbol.asyncIterator]();
-  const page = await opened();
+  const page = await opened(1024);
   page.on('dialog', dialog => dialog.accept(own[1]));
   await page.click('.cm-content');
   await page.keyboard.insertText('# before\n');
@@ -316,7 +315,7 @@ async function moved() {
 
 /** The text that the page shows first, and what it says about it. */
 async function shown() {
-  const page = await opened();
+  const page = await opened(1024);
   await page.waitForTimeout(300);
   return { text: await text(page), notices: await page.locator('.notice').allTextContents() };
 }

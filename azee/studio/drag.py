@@ -26,7 +26,7 @@ def read_act(message: Mapping[str, Any]) -> dict[str, Any]:
     asked: dict[str, Any] = {"act": act}
     for name in ("session", "serial"):
         number = message.get(name)
-        if not isinstance(number, int) or not 0 <= number <= MOST_NUMBER:
+        if type(number) is not int or not 0 <= number <= MOST_NUMBER:
             raise RefusedError(400, f"`{name}` is no number")
         asked[name] = number
     if act == "open":

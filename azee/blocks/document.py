@@ -35,7 +35,7 @@ from azee.blocks.writing import first_word, words_of, written
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 from azee_grammar.format import format_file
 from azee_grammar.layout import LayoutReader
-from azee_grammar.parser import parse
+from azee_grammar.parser import parse_layouts
 from azee_grammar.source import Source, Span
 from azee_grammar.syntax import Application, Definition, Item, Use
 from azee_grammar.token import Token
@@ -102,13 +102,14 @@ class Document:
 
     @cached_property
     def _read(self) -> tuple[tuple[Diagnostic, ...], tuple[ItemText, ...]]:
-        parsed = parse(self.source, template=True)
-        nodes = {content(item).span.start: item for item in parsed.file.items}
         reader = LayoutReader(self.source)
-        layouts = [(item.tokens, item.diagnostics) for item in reader.items()]
+        layouts = [*reader.items()]
+        parsed = parse_layouts(self.source, layouts, reader, template=True)
+        nodes = {content(item).span.start: item for item in parsed.file.items}
         out = []
-        for tokens, problems in layouts:
-            words = [t for t in tokens if t.kind not in LAYOUT]
+        for layout in layouts:
+            problems = layout.diagnostics
+            words = [t for t in layout.tokens if t.kind not in LAYOUT]
             if words:
                 span = self._lines(words[0].start, words[-1].end)
                 out.append(self._item(span, words, nodes, parsed.comments))

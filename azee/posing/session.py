@@ -22,6 +22,7 @@ from azee.compilation import Compilation, Hand, perform, source_of
 from azee.motion.tasks.flatten import flatten
 from azee.posing.drag import Dragged, DragSolver
 from azee.posing.fault import cannot_pose
+from azee.posing.grips import Grip, grips
 from azee.posing.handle import (
     Handle,
     MorphHandle,
@@ -88,11 +89,9 @@ class Frame:
 
     def as_json(self) -> dict[str, object]:
         """Return it as plain data; rotations xyzw of all joints, in the order of the skeleton."""
-        wxyz = self.rig.pose(self.q).rotations
         return {
             "handle": str(self.handle),
-            "rotations": np.roll(wxyz, -1, axis=-1).round(6).tolist(),
-            "weights": {name: round(w, 4) for name, w in self.unit_weights.items() if w},
+            **_posture(self.rig, self.q, self.unit_weights),
             "place": None if self.place is None else [*self.place],
             "miss": self.miss,
             "blocked": [*self.blocked],
@@ -209,6 +208,15 @@ class PosingSession:
         """The posture now, (V,) radians."""
         return np.array(self._q)
 
+    @property
+    def grips(self) -> list[Grip]:
+        """What can be dragged of the body as it is now."""
+        return grips(self.instant.evaluator, kinematics.frames(self._rig.chain, self._q))
+
+    def still(self) -> dict[str, object]:
+        """Return the posture now as plain data: `rotations` and `weights`, as a frame has them."""
+        return _posture(self._rig, self._q, self._unit_weights(self._q))
+
     def _moved(self, done: Dragged) -> Dragged:
         self._q, self._dropped = done.q, False
         return done
@@ -314,6 +322,14 @@ def _written_at(score: Score, proposal: Proposal) -> Interval | None:
         elif origin and origin.file == source.name and first <= origin.line <= last:
             return found.interval
     return None
+
+
+def _posture(rig: Rig, q: Array, unit_weights: dict[str, float]) -> dict[str, object]:
+    wxyz = rig.pose(q).rotations
+    return {
+        "rotations": np.roll(wxyz, -1, axis=-1).round(6).tolist(),
+        "weights": {name: round(w, 4) for name, w in unit_weights.items() if w},
+    }
 
 
 def _in_words(overlap: Overlap) -> str:

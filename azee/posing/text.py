@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path as FilePath
 
@@ -23,13 +23,15 @@ from azee_solver.geometry import Point, SitePoint
 class PosedText:
     """A text with the options that say what of it is compiled.
 
-    libraries, utterance, dominant: as `azee.compile` takes them.
+    libraries, utterance, dominant: as `azee.compile` takes them. place: the file of the text, which
+    need not be there yet.
     """
 
     document: Document
     libraries: tuple[FilePath, ...] = ()
     utterance: int | None = None
     dominant: Hand = "right"
+    place: FilePath | None = None
 
     @property
     def source(self) -> Source:
@@ -39,7 +41,7 @@ class PosedText:
     @cached_property
     def program(self) -> Program:
         """The text with its libraries."""
-        return load(self.source, self.libraries)
+        return load(self.source, self.libraries, place=self.place)
 
     @cached_property
     def score(self) -> Score:
@@ -48,7 +50,7 @@ class PosedText:
 
     def with_document(self, document: Document) -> PosedText:
         """Return another text with the same options."""
-        return PosedText(document, self.libraries, self.utterance, self.dominant)
+        return replace(self, document=document)
 
     @cached_property
     def places(self) -> Mapping[str, Point]:

@@ -21,7 +21,14 @@ from typing import Any
 from azee.studio.folder import RefusedError
 from azee.studio.framing import LENGTHS, Header, packed, unpacked
 
-LIMITS_S = {"compile": 60.0, "export": 600.0, "picture": 60.0, "body": 60.0, "hang": 0.5}
+LIMITS_S = {
+    "compile": 60.0,
+    "export": 600.0,
+    "picture": 60.0,
+    "body": 60.0,
+    "pose": 60.0,
+    "hang": 0.5,
+}
 """How long a job may take before the worker is killed."""
 START_S = 120.0
 """How long a worker may take to start: the first time on a machine it compiles the solver."""

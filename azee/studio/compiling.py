@@ -26,6 +26,7 @@ from azee_solver.geometry import Side
 if TYPE_CHECKING:
     from azee.compilation import Compilation
     from azee.lang.program import Program
+    from azee.posing.text import PosedText
     from azee.score.score import Score
 
 LONGEST_S = 300
@@ -138,6 +139,22 @@ def performed(
         provenance=provenance_of(written(program, job.expression, None)),
         postures=postures.solver(rig, side_of(job), job.precise, check),
     )
+
+
+def posed(
+    job: Job, root: Path, libraries: Sequence[Path], postures: Postures
+) -> tuple[PosedText, Compilation]:
+    """Return a text to be posed, and its movement. Raises: AZeeError: the text has mistakes."""
+    from azee.blocks.document import Document
+    from azee.posing.text import PosedText
+
+    found, score, program = evaluated(job, root, libraries)
+    if score is None:
+        raise AZeeError(*found)
+    path = root / job.file
+    document = Document.of(job.text, str(path))
+    text = PosedText(document, tuple(libraries), None, job.dominant, path)
+    return text, performed(job, score, program, lambda: None, postures)
 
 
 def side_of(job: Job) -> Side:

@@ -15,6 +15,8 @@ from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
+from pygls.exceptions import JsonRpcException
+
 from azee.lsp.document import path_of
 from azee.lsp.server import Server, make_server
 from azee.studio.folder import Folder
@@ -66,6 +68,8 @@ class Language:
     def receive(self, message: Mapping[str, Any]) -> None:
         """Take a message of the page."""
         wrong = next(_outside(message, self._languages.folder), None)
+        if message.get("jsonrpc") != "2.0":
+            wrong = "that is no message of JSON-RPC 2.0"
         if wrong is None:
             self._languages.loop.call_soon_threadsafe(self._handle, dict(message))
         elif isinstance(message.get("id"), str | int):
@@ -86,10 +90,10 @@ class Language:
             self._server = make_server(self._languages.libraries)
             self._server.protocol.set_writer(self._writer, include_headers=False)
         protocol = self._server.protocol
+        text = json.dumps(message)
         try:
-            text = json.dumps(message)
             protocol.handle_message(json.loads(text, object_hook=protocol.structure_message))
-        except Exception:
+        except JsonRpcException:
             logging.getLogger(__name__).debug("a message was not understood", exc_info=True)
 
 

@@ -17,6 +17,7 @@ from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
+from azee.studio.drag import read_act
 from azee.studio.folder import LARGEST_TEXT, RefusedError
 from azee.studio.framing import Header
 from azee.studio.language import Language
@@ -73,6 +74,8 @@ class Live:
                 what = self._workspace.job(message)
                 job = {"do": "compile", "client": self._client, "what": what}
                 self._workspace.compiler.submit(job, self._tell)
+            case "pose":
+                self._pose(message)
             case "lsp":
                 inner = message.get("message")
                 if not isinstance(inner, Mapping):
@@ -88,6 +91,14 @@ class Live:
                 self._watched[file] = digest if isinstance(digest, str) else None
             case _:
                 raise RefusedError(400, "there is no such kind of message")
+
+    def _pose(self, message: Mapping[str, Any]) -> None:
+        """Hand an act of posing to the worker. Raises: RefusedError."""
+        act = read_act(message)
+        job: Header = {"do": "pose", "client": self._client, **act}
+        if act["act"] == "open":
+            job["what"] = self._workspace.job(message)
+        self._workspace.compiler.submit(job, self._tell)
 
     async def _keep(self, message: Mapping[str, Any]) -> None:
         file, text, digest = _text(message, "file"), _text(message, "text"), message.get("digest")

@@ -11,27 +11,41 @@ import gc
 import os
 import sys
 import threading
+from collections import deque
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
-from azee.studio.compiling import SupersededError, compiled, evaluated, performed, still
+from azee.studio.compiling import (
+    SupersededError,
+    compiled,
+    evaluated,
+    performed,
+    posed,
+    still,
+)
 from azee.studio.framing import Header, packed, read_message
 from azee.studio.job import Job
+from azee.studio.posing import LostError, Posing
 from azee.studio.postures import Postures
 from azee_grammar.diagnostic import AZeeError
 from azee_grammar.render import to_json
+
+if TYPE_CHECKING:
+    from azee.compilation import Compilation
+    from azee.posing.text import PosedText
 
 _PICTURE = (168, 210)
 
 
 class Inbox:
-    """Jobs that wait: the newest text of each page first, then everything else as it came."""
+    """Jobs that wait: acts of posing first, then the newest text of each page, then the rest."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
         self._texts: dict[int, Header] = {}
-        self._others: list[Header] = []
+        self._acts: deque[Header] = deque()
+        self._others: deque[Header] = deque()
         self.given_up: list[int] = []
 
     def put(self, message: Header) -> None:
@@ -41,6 +55,8 @@ class Inbox:
                 if older := self._texts.pop(message["client"], None):
                     self.given_up.append(older["job"])
                 self._texts[message["client"]] = message
+            elif message["do"] == "pose":
+                self._acts.append(message)
             else:
                 self._others.append(message)
             self._changed.notify()
@@ -48,29 +64,31 @@ class Inbox:
     def take(self) -> tuple[Header, list[int]]:
         """Wait for a job; return it, with those that were given up before they began."""
         with self._changed:
-            while not self._texts and not self._others:
+            while not (self._acts or self._texts or self._others):
                 self._changed.wait()
-            if self._texts:
+            if self._acts:
+                message = self._acts.popleft()
+            elif self._texts:
                 message = self._texts.pop(next(iter(self._texts)))
             else:
-                message = self._others.pop(0)
+                message = self._others.popleft()
             gone, self.given_up = self.given_up, []
             return message, gone
 
     def put_back(self, message: Header) -> None:
-        """Take back a job that a text interrupted; it is the next after the texts."""
+        """Take back a job that a text interrupted; it is the next of the rest."""
         with self._changed:
-            self._others.insert(0, message)
+            self._others.appendleft(message)
 
     def newer(self, client: int) -> bool:
         """Whether a newer text of a page waits."""
         with self._changed:
             return client in self._texts
 
-    def has_text(self) -> bool:
-        """Whether any text waits."""
+    def has_urgent(self) -> bool:
+        """Whether an act of posing or a text waits."""
         with self._changed:
-            return bool(self._texts)
+            return bool(self._acts or self._texts)
 
 
 class Worker:
@@ -78,7 +96,7 @@ class Worker:
 
     def __init__(self, root: Path, libraries: Sequence[Path], out: BinaryIO) -> None:
         self._root, self._libraries, self._out = root, libraries, out
-        self._postures = Postures()
+        self._postures, self._posing = Postures(), Posing()
         self.inbox = Inbox()
 
     def read(self, stream: BinaryIO) -> None:
@@ -115,6 +133,7 @@ class Worker:
             "export": self._export,
             "picture": self._picture,
             "body": self._body,
+            "pose": self._pose,
             "hang": self._hang,
         }
         work[message["do"]](message)
@@ -134,15 +153,30 @@ class Worker:
             self._tell({**header, "job": message["job"]}, payload)
 
     def _picture(self, message: Header) -> None:
-        """Draw a still; nobody waits for it as for the text that is typed, which goes first."""
+        """Draw a still; drags and texts that are typed go first, for somebody waits for them."""
 
         def check() -> None:
-            if self.inbox.has_text():
+            if self.inbox.has_urgent():
                 raise SupersededError
 
         job = Job(**message["what"])
         data = still(job, self._root, self._libraries, _PICTURE, check, self._postures)
         self._tell({"kind": "picture", "job": message["job"]}, data)
+
+    def _pose(self, message: Header) -> None:
+        """Do an act of posing; what cannot be dragged is told in the answer."""
+
+        def made() -> tuple[PosedText, Compilation]:
+            return posed(Job(**message["what"]), self._root, self._libraries, self._postures)
+
+        answer: dict[str, Any] = {name: message[name] for name in ("act", "session", "serial")}
+        try:
+            answer |= self._posing.act(message, made)
+        except LostError:
+            answer["lost"] = True
+        except AZeeError as error:
+            answer["message"] = error.diagnostics[0].message
+        self._tell({**answer, "kind": "posed", "job": message["job"]})
 
     def _export(self, message: Header) -> None:
         job, path = Job(**message["what"]), Path(message["path"])

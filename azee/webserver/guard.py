@@ -11,7 +11,9 @@ from __future__ import annotations
 import secrets
 from collections.abc import Iterable, Mapping
 
+from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.websockets import WebSocketDisconnect
 
 LARGEST_BODY = 1_000_000
 """Bytes of a request, or of one message over a WebSocket, if nothing else is said."""
@@ -78,8 +80,8 @@ class Guard:
             return
         try:
             await self._app(inner, exchange.receive, exchange.send)
-        except Exception:
-            if not exchange.too_big:
+        except (ClientDisconnect, WebSocketDisconnect):
+            if not exchange.too_big:  # else the application was told that the other side has gone
                 raise
         if exchange.too_big:
             await exchange.refuse(scope, _RefusedError(413, TOO_MUCH))

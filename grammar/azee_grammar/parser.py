@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -43,9 +44,16 @@ class Parsed:
 def parse(source: Source, *, template: bool = False) -> Parsed:
     """Parse a text. Holes (`?name`) are mistakes unless it is a template."""
     reader = LayoutReader(source)
+    return parse_layouts(source, reader.items(), reader, template=template)
+
+
+def parse_layouts(
+    source: Source, layouts: Iterable[Layout], reader: LayoutReader, *, template: bool = False
+) -> Parsed:
+    """Parse a text of which the layout is read: its items, and the reader that read them."""
     items: list[Item] = []
     diagnostics: list[Diagnostic] = []
-    for layout in reader.items():
+    for layout in layouts:
         item, found = _read(source, layout, "item", template=template)
         diagnostics += found
         if item is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Protocol, TypeVar
 
 from azee.blocks.document import Document
@@ -49,11 +50,17 @@ class Choosing(Protocol):
     def choice(self, options: Sequence[T], /) -> T: ...
 
 
+@lru_cache(maxsize=16)
+def layout(text: str) -> tuple[Sequence[Token], Sequence[tuple[int, int]]]:
+    """The words of a text and the ranges of its comments, read once for all that asks."""
+    reader = LayoutReader(Source("a", text))
+    tokens = [t for item in reader.items() for t in item.tokens if is_word(t)]
+    return tokens, reader.comments
+
+
 def words(text: str) -> Counter[tuple[str, str]]:
     """The words of a text, without layout and punctuation, each with its kind."""
-    reader = LayoutReader(Source("a", text))
-    tokens = [t for item in reader.items() for t in item.tokens]
-    return Counter(word(t, text) for t in tokens if is_word(t))
+    return Counter(word(t, text) for t in layout(text)[0])
 
 
 def word(token: Token, text: str) -> tuple[str, str]:
@@ -71,9 +78,7 @@ def is_word(token: Token) -> bool:
 
 def comments(text: str) -> Counter[str]:
     """The comments of a text."""
-    reader = LayoutReader(Source("a", text))
-    list(reader.items())
-    return Counter(text[start:end].rstrip() for start, end in reader.comments)
+    return Counter(text[start:end].rstrip() for start, end in layout(text)[1])
 
 
 def any_edit(document: Document, choosing: Choosing) -> Edit | None:

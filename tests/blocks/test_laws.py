@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from edits_of import any_edit, comments, is_word, word, words
+from edits_of import any_edit, comments, layout, word, words
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from programs_azee import programs
@@ -37,7 +37,6 @@ from azee.blocks.tree_edit import edited
 from azee.blocks.view import blocks_of
 from azee_grammar.diagnostic import AZeeError
 from azee_grammar.format import format_file
-from azee_grammar.layout import LayoutReader
 from azee_grammar.library import shipped
 from azee_grammar.parser import parse
 from azee_grammar.source import Source
@@ -96,13 +95,12 @@ def _within(
     text: str, ranges: Sequence[tuple[int, int]]
 ) -> tuple[Counter[str], Counter[tuple[str, str]]]:
     """The comments and words of a text that lie in ranges."""
-    reader = LayoutReader(Source("a", text))
-    tokens = [t for item in reader.items() for t in item.tokens if is_word(t)]
+    tokens, found = layout(text)
     inside_words = Counter(
         word(t, text) for t in tokens if any(a <= t.start and t.end <= b for a, b in ranges)
     )
     inside_comments = Counter(
-        text[s:e].rstrip() for s, e in reader.comments if any(a <= s and e <= b for a, b in ranges)
+        text[s:e].rstrip() for s, e in found if any(a <= s and e <= b for a, b in ranges)
     )
     return inside_comments, inside_words
 
@@ -265,11 +263,11 @@ def journey(seed: int, texts: Sequence[str]) -> int:
     for n in range(8):
         before = text
         text = edit_text(text, chance, n)
-        if parse(Source("a", text), template=True).diagnostics:
-            text = before  # lines in parentheses may not hold tabs beside spaces
+        document = Document.of(text)
+        if document.diagnostics:  # lines in parentheses may not hold tabs beside spaces
+            text, document = before, Document.of(before)
         assert words(text) == words(before)
         assert comments(before) <= comments(text)
-        document = Document.of(text)
         edit = any_edit(document, chance)
         if edit is None or (done := check(document, edit)) is None:
             continue

@@ -1,10 +1,12 @@
-// node studio_page.mjs JOURNEY URL PICTURES
-// Uses the page of `azee studio` in headless Chromium. JOURNEY is author, keys, typing, text or times.
+// node studio_page.mjs JOURNEY URL PICTURES [FILE]
+// Uses the page of `azee studio` in headless Chromium. JOURNEY is author, keys, pose, moved, typing,
+// text or times.
 // Prints what was seen as JSON; PICTURES is a folder for screenshots, or empty.
 import { readFileSync } from 'node:fs';
+import { createInterface } from 'node:readline';
 import { chromium } from 'playwright-core';
 
-const [journey, url, pictures] = process.argv.slice(2);
+const [journey, url, pictures, file = 'untitled.azee'] = process.argv.slice(2);
 const SLOW_MS = 120_000;
 const server = await chromium.launchServer({
   executablePath: process.env.CHROMIUM,
@@ -13,17 +15,18 @@ const server = await chromium.launchServer({
     '--disable-quic', '--no-first-run'],
 });
 const browser = await chromium.connect(server.wsEndpoint());
-const complaints = [], foreign = [];
+const complaints = [], foreign = [], own = [url];
 
 async function opened(width = 1366, height = 768, search = '') {
+  const query = `?file=${file}${search}`;
   const page = await browser.newPage({ viewport: { width, height }, acceptDownloads: true });
   page.setDefaultTimeout(SLOW_MS);
   page.on('pageerror', error => complaints.push(error.message));
   page.on('request', request => {
     const address = request.url();
-    if (!address.startsWith(url) && !/^(blob|data):/.test(address)) foreign.push(address);
+    if (!own.some(start => address.startsWith(start)) && !/^(blob|data):/.test(address)) foreign.push(address);
   });
-  await page.goto(url + search);
+  await page.goto(url + query);
   await page.waitForFunction(() => window.azeeStudio?.document.file);
   return page;
 }
@@ -41,10 +44,11 @@ const at = (page, time) => page.evaluate(t => {
 const farthest = (a, b) => Math.max(...Object.keys(a).map(name =>
   Math.hypot(...a[name].map((x, i) => x - b[name][i]))));
 
-/** Returns the faults that axe-core calls serious or critical. */
-async function faults(page) {
-  await page.evaluate(readFileSync('node_modules/axe-core/axe.min.js', 'utf8'));
-  const { violations } = await page.evaluate(() => axe.run());
+/** Returns the faults that axe-core calls serious or critical, of the page or of a part of it. */
+async function faults(page, part = 'html') {
+  if (!await page.evaluate(() => window.axe))
+    await page.evaluate(readFileSync('node_modules/axe-core/axe.min.js', 'utf8'));
+  const { violations } = await page.evaluate(within => axe.run(within), part);
   return violations.filter(({ impact }) => ['serious', 'critical'].includes(impact))
     .map(({ id, nodes }) => `${id}: ${nodes.map(node => node.target.join(' ')).join(', ')}`);
 }
@@ -97,6 +101,21 @@ async function author() {
   told.blocks = await page.locator('.blocks .block-row code').allTextContents();
   await shot(page, 'blocks');
 
+  await at(page, 0.7 * end);
+  await page.click('#tab-pose');
+  await posed(page);
+  await drag(page, '@I_TIP(s)', 30, -25);
+  await posed(page);
+  await shot(page, 'corrected');
+  await page.click('.proposals button');
+  told.corrected = await text(page);
+  await signed(page);
+  await page.click('.cm-content');
+  await page.keyboard.press('Control+z');
+  told.undone = await text(page);
+  await page.keyboard.press('Control+y');
+  await signed(page);
+
   const before = await at(page, 1);
   await page.click('#tab-settings');
   await page.selectOption('.panel select[aria-label=Body]', 'child');
@@ -121,14 +140,14 @@ async function author() {
   told.reloaded = await text(page);
   told.state = await page.textContent('.state');
   told.faults = await faults(page);
-  for (const panel of ['blocks', 'reasons', 'versions', 'film', 'settings']) {
+  for (const panel of ['blocks', 'pose', 'reasons', 'versions', 'film', 'settings']) {
     await page.click(`#tab-${panel}`);
     await page.waitForTimeout(200);
-    told.faults.push(...await faults(page));
+    told.faults.push(...await faults(page, '#panel'));
   }
   await page.close();
   for (const [width, height] of [[1366, 768], [1024, 768], [390, 844]]) {
-    const other = await opened(width, height, width < 500 ? '?lang=fr' : '');
+    const other = await opened(width, height, width < 500 ? '&lang=fr' : '');
     await signed(other);
     await at(other, 1.9);
     await other.waitForTimeout(300);
@@ -137,6 +156,82 @@ async function author() {
     told[`wide_${width}`] = await other.evaluate(() => document.documentElement.scrollWidth);
     await other.close();
   }
+  return told;
+}
+
+/** Drags a part of the body by the mouse, in steps; returns where it was on the page. */
+async function drag(page, handle, dx, dy, steps = 12) {
+  const [x, y] = await page.evaluate(h => azeeStudio.posing.onPage(h), handle);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let i = 1; i <= steps; i++) await page.mouse.move(x + (dx * i) / steps, y + (dy * i) / steps);
+  await page.mouse.up();
+  return [x, y];
+}
+const posed = page => page.waitForFunction(() => azeeStudio.posing.idle);
+
+/** Poses the body of a text: a hand, a palm, a finger and the face; then chooses what is written. */
+async function pose() {
+  const page = await opened();
+  const told = {};
+  await page.click('.cm-content');
+  await page.keyboard.insertText('key 1\n    place @I_TIP(s) ^Mssp\n');
+  await signed(page);
+  await page.evaluate(() => { azeeStudio.signer.play(false); azeeStudio.signer.seek(azeeStudio.signer.duration / 2); });
+  await page.selectOption('select[aria-label=Camera]', 'hands');
+  await page.click('#tab-pose');
+  await posed(page);
+  const joints = () => page.evaluate(() => azeeStudio.signer.joints());
+  const place = handle => page.evaluate(h => azeeStudio.posing.place(h), handle);
+  const start = await joints(), before = await text(page), tip = await place('@I_TIP(s)');
+  const [x, y] = await drag(page, '@I_TIP(s)', 70, -60, 40);
+  await posed(page);
+  told.wrist_m = Math.hypot(...(await joints())['wrist.R'].map((v, i) => v - start['wrist.R'][i]));
+  told.under_px = await page.evaluate(([x, y]) => {
+    const [a, b] = azeeStudio.posing.onPage('@I_TIP(s)');
+    return Math.hypot(a - x, b - y);
+  }, [x + 70, y - 60]);
+  told.answers_ms = await page.evaluate(() => azeeStudio.posing.answers);
+  const there = await place('@I_TIP(s)');
+  told.moved_m = Math.hypot(...there.map((v, i) => v - tip[i]));
+  told.proposals = await page.locator('.proposals code').allTextContents();
+  await shot(page, 'pose');
+  const exact = page.locator('.proposals button:has-text("point(")').first();
+  told.written = await exact.locator('code').textContent();
+  await exact.click();
+  told.changed = await text(page);
+  await signed(page);
+  await posed(page);
+  told.off_m = Math.hypot(...(await place('@I_TIP(s)')).map((v, i) => v - there[i]));
+  await page.click('.cm-content');
+  await page.keyboard.press('Control+z');
+  told.undone = await text(page) === before;
+  await signed(page);
+  await posed(page);
+  await drag(page, 'nrm !palm(s)', 30, 10);
+  await posed(page);
+  told.palm = await page.locator('.proposals code').first().textContent();
+  await page.selectOption('select[aria-label="Fingers or face"]', "'AU12");
+  await page.fill('input[aria-label=Weight]', '0.7');
+  await page.dispatchEvent('input[aria-label=Weight]', 'change');
+  await posed(page);
+  told.face = await page.locator('.proposals code').allTextContents();
+  await page.selectOption('select[aria-label="Fingers or face"]', "'index_bend s");
+  await page.fill('input[aria-label=Weight]', '0.5');
+  await page.dispatchEvent('input[aria-label=Weight]', 'change');
+  await posed(page);
+  told.finger = await page.locator('.proposals code').allTextContents();
+  await page.selectOption('select[aria-label=Part]', 'gaze');
+  await page.focus('select[aria-label=Part]');
+  for (let i = 0; i < 5; i++) await page.keyboard.press('Alt+ArrowRight').then(() => posed(page));
+  await page.keyboard.press('Enter');
+  await posed(page);
+  told.gaze = await page.locator('.proposals code').first().textContent();
+  await shot(page, 'pose-face');
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.waitForTimeout(300);
+  await shot(page, 'pose-390');
+  told.wide_390 = await page.evaluate(() => document.documentElement.scrollWidth);
   return told;
 }
 
@@ -186,7 +281,7 @@ async function keys() {
 
 /** Types numbered comments and prints each; ends when the text cannot be sent, or when killed. */
 async function typing() {
-  const page = await opened();
+  const page = await opened(1024);
   await page.click('.cm-content');
   await page.keyboard.press('Control+End');
   console.log(JSON.stringify({ browser: server.process().pid }));
@@ -198,14 +293,34 @@ async function typing() {
   return {};
 }
 
+/** Types when the server was killed, and goes to the address of the next; both are told on stdin. */
+async function moved() {
+  const told = createInterface({ input: process.stdin })[Symbol.asyncIterator]();
+  const page = await opened(1024);
+  page.on('dialog', dialog => dialog.accept(own[1]));
+  await page.click('.cm-content');
+  await page.keyboard.insertText('# before\n');
+  await page.waitForFunction(() => azeeStudio.document.state === 'kept');
+  console.log('ready');
+  await told.next();
+  await page.waitForSelector('.notice[data-name=offline] button');
+  await page.keyboard.insertText('# after 100 % ✓\n');
+  console.log('typed');
+  own.push((await told.next()).value);
+  await page.click('.notice[data-name=offline] button');
+  await page.waitForURL(`${own[1]}**`);
+  await page.waitForFunction(() => window.azeeStudio?.document.state === 'kept');
+  return { text: await text(page), address: page.url() };
+}
+
 /** The text that the page shows first, and what it says about it. */
 async function shown() {
-  const page = await opened();
+  const page = await opened(1024);
   await page.waitForTimeout(300);
   return { text: await text(page), notices: await page.locator('.notice').allTextContents() };
 }
 
-/** Edits a sentence and prints how long each edit took to move the signer; then frames. */
+/** Edits a sentence and tells how long each edit took to move the signer; then frames and drags. */
 async function times() {
   const page = await opened();
   await page.click('.cm-content');
@@ -216,13 +331,17 @@ async function times() {
     await signed(page);
     await page.waitForTimeout(600);
   }
-  return page.evaluate(() => ({
-    edits_ms: azeeStudio.latencies.map(Math.round), worker_ms: azeeStudio.workerTimes,
+  const told = await page.evaluate(() => ({
+    edits_ms: azeeStudio.latencies, worker_ms: azeeStudio.workerTimes,
     device: azeeStudio.signer.device, frames_ms: azeeStudio.signer.timed(40),
   }));
+  await page.click('#tab-pose');
+  await posed(page);
+  for (let i = 0; i < 4; i++) await drag(page, '@I_TIP(s)', 40 - 20 * i, -30 + 15 * i, 40).then(() => posed(page));
+  return { ...told, drags_ms: await page.evaluate(() => azeeStudio.posing.answers) };
 }
 
-const journeys = { author, keys, typing, text: shown, times };
+const journeys = { author, keys, pose, moved, typing, text: shown, times };
 try {
   const told = await journeys[journey]();
   console.log(JSON.stringify({ ...told, complaints, foreign }));

@@ -125,8 +125,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.studio": {
         *(OURS - {"azee"}),
         *("azee.animation", "azee.assist", "azee.blocks", "azee.clip", "azee.compilation"),
-        *("azee.export", "azee.formats", "azee.lang", "azee.lsp", "azee.motion", "azee.score"),
-        *("azee.web", "azee.webserver", "numpy", "starlette"),
+        *("azee.export", "azee.formats", "azee.lang", "azee.lsp", "azee.motion", "azee.posing"),
+        *("azee.score", "azee.web", "azee.webserver", "numpy", "pygls", "starlette"),
     },
     "azee.web": set(),
     "azee.webserver": {"starlette", "uvicorn"},

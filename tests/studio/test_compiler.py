@@ -47,6 +47,13 @@ def test_of_one_page_only_the_newest_text_waits() -> None:
     inbox.put({"do": "compile", "client": 0, "job": 11})
     assert inbox.newer(0)
     assert inbox.take()[1] == [10]
+    inbox.put({"do": "picture", "job": 12})
+    assert not inbox.has_urgent()
+    inbox.put({"do": "compile", "client": 0, "job": 13})
+    inbox.put({"do": "pose", "client": 0, "job": 14})
+    inbox.put({"do": "pose", "client": 0, "job": 15})
+    assert inbox.has_urgent()
+    assert [inbox.take()[0]["job"] for _ in range(4)] == [14, 15, 13, 12]
 
 
 def test_of_many_texts_the_last_is_shown_and_all_are_answered(tmp_path: Path) -> None:

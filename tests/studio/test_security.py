@@ -5,7 +5,11 @@ from __future__ import annotations
 import json
 import random
 import re
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -15,6 +19,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 pytestmark = pytest.mark.slow
 SECRET = "what nobody may read"
 MUTATIONS = 1000
+PAGES, EACH = 8, 25
+"""Connections at a time, and messages over each."""
 LARGEST_MB = 400
 """Of the server's own memory, whatever it is asked."""
 
@@ -152,6 +158,17 @@ MESSAGES: list[dict[str, object]] = [
     {"kind": "watch", "file": "a.azee", "digest": "0"},
     {"kind": "lsp", "message": CALLS[0]},
     {"kind": "lsp", "message": CALLS[1]},
+    {"kind": "pose", "act": "drag", "session": 1, "serial": 1, "handle": "gaze", "target": [0]},
+    {
+        "kind": "pose",
+        "act": "open",
+        "session": 1,
+        "serial": 2,
+        "at_s": 0,
+        "number": 1,
+        "file": "a.azee",
+        "text": ":abre\n",
+    },
 ]
 
 
@@ -175,33 +192,45 @@ def mutated(data: bytes, rng: random.Random) -> bytes:
     return bytes(changed)
 
 
+def mutated_request(rng: random.Random) -> tuple[str, str, bytes | None]:
+    """Return method, path and body of a request that is not quite one of ours."""
+    method, path, body = rng.choice(REQUESTS)
+    raw = None if body is None else mutated(json.dumps(body).encode(), rng)
+    if rng.random() < 0.5 or raw is None:
+        path = mutated(path.encode(), rng).decode("latin-1")
+        path = re.sub(r"[^!-~]", lambda m: f"%{ord(m[0]):02x}", path)[:3000]
+    return method, path, raw
+
+
+def say(studio: Studio, messages: Sequence[str]) -> None:
+    """Send messages over one live connection, until it is closed or all are answered."""
+    with studio.live() as socket, suppress(ConnectionClosed):
+        for message in messages:
+            socket.send(message)
+        socket.send(json.dumps({"kind": "nothing"}))
+        until(socket, "refused", message="there is no such kind of message")
+
+
 def test_a_thousand_mutated_requests_and_messages_are_refused_bounded_and_survived(
     studio: Studio,
 ) -> None:
+    """Some at a time, as from several pages: alone, each would wait for the one before."""
     rng = random.Random(7)
-    seen: dict[int, int] = {}
-    for _ in range(MUTATIONS // 2):
-        method, path, body = rng.choice(REQUESTS)
-        raw = None if body is None else mutated(json.dumps(body).encode(), rng)
-        if rng.random() < 0.5 or raw is None:
-            path = mutated(path.encode(), rng).decode("latin-1")
-            path = re.sub(r"[^!-~]", lambda m: f"%{ord(m[0]):02x}", path)[:3000]
-        status, answer = studio.ask(path, method, headers={}, raw=raw)
-        seen[status] = seen.get(status, 0) + 1
-        assert SECRET.encode() not in answer
-        assert status < 500 or status == 503, (method, path, raw, answer)
-    left = MUTATIONS // 2
-    while left > 0:
-        with studio.live() as socket:
-            try:
-                for _ in range(min(left, 25)):
-                    left -= 1
-                    message = mutated(json.dumps(rng.choice(MESSAGES)).encode(), rng)
-                    socket.send(message.decode("utf-8", "replace"))
-                socket.send(json.dumps({"kind": "nothing"}))
-                until(socket, "refused", message="there is no such kind of message")
-            except ConnectionClosed:
-                continue
+    requests = [mutated_request(rng) for _ in range(MUTATIONS // 2)]
+    messages = [
+        mutated(json.dumps(rng.choice(MESSAGES)).encode(), rng).decode("utf-8", "replace")
+        for _ in range(MUTATIONS // 2)
+    ]
+    talks = [messages[i : i + EACH] for i in range(0, len(messages), EACH)]
+    with ThreadPoolExecutor(PAGES) as pool:
+        answers = pool.map(lambda r: studio.ask(r[1], r[0], headers={}, raw=r[2]), requests)
+        spoken = pool.map(partial(say, studio), talks)
+        seen = Counter[int]()
+        for request, (status, answer) in zip(requests, answers, strict=True):
+            seen[status] += 1
+            assert SECRET.encode() not in answer
+            assert status < 500 or status == 503, (request, answer)
+        assert len([*spoken]) == len(talks)
     assert sum(count for status, count in seen.items() if status >= 400) > MUTATIONS // 5
     test_a_text_comes_as_score_and_movement(studio)
     assert _memory_mb(studio) < LARGEST_MB

@@ -71,6 +71,15 @@ export class Body implements Names {
     return pose;
   }
 
+  /** Writes rotations of all joints, xyzw, and weights of units, by name, into a posture. */
+  take(
+    given: { rotations: readonly (readonly number[])[]; weights: Readonly<Record<string, number>> },
+    pose: Pose,
+  ): void {
+    given.rotations.forEach((turn, j) => pose.rotations.set(turn, 4 * j));
+    this.units.forEach((unit, u) => { pose.weights[u] = given.weights[unit] ?? 0; });
+  }
+
   apply(pose: Pose): void {
     this.bones.forEach((bone, j) => bone.quaternion.fromArray(pose.rotations, 4 * j));
     this.bones[0]!.position.fromArray(pose.root);

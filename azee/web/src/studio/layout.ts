@@ -2,7 +2,7 @@
 import { h } from './elements';
 import type { Words } from './words';
 
-export type PanelName = 'rules' | 'blocks' | 'reasons' | 'versions' | 'film' | 'settings';
+export type PanelName = 'rules' | 'blocks' | 'pose' | 'reasons' | 'versions' | 'film' | 'settings';
 type Part = 'text' | 'signer' | 'score' | 'panel';
 
 export class Layout {
@@ -22,7 +22,7 @@ export class Layout {
     this.signer.setAttribute('aria-label', words.signer);
     this.score.setAttribute('aria-label', words.score);
     this.panel.setAttribute('aria-label', words.panels);
-    const names: PanelName[] = ['rules', 'blocks', 'reasons', 'versions', 'film', 'settings'];
+    const names: PanelName[] = ['rules', 'blocks', 'pose', 'reasons', 'versions', 'film', 'settings'];
     const tablist = h('div', { class: 'tabs', role: 'group', 'aria-label': words.panels },
       ...names.map(name => {
         const tab = h('button', {
@@ -56,6 +56,7 @@ export class Layout {
     this.open = panel;
     for (const [name, tab] of this.tabs) tab.setAttribute('aria-expanded', String(name === panel));
     this.panel.hidden = panel === null;
+    this.main.dataset['panel'] = panel ?? '';
     this.main.classList.toggle('with-panel', panel !== null);
     if (panel) this.panel.replaceChildren(h('h2', {}, this.tabs.get(panel)!.textContent), this.bodies[panel]);
     this.shown(panel);

@@ -5,8 +5,10 @@ import { Editor } from './editor';
 import { choice, h } from './elements';
 import { Files, withSuffix } from './files';
 import { Layout, type PanelName } from './layout';
+import { broughtAlong, goTo, studioAddress } from './moving';
 import { Notices } from './notices';
 import { Film, Palette, Reasons, settingsPanel, Versions } from './panels';
+import { Posing } from './posing';
 import type { Answer, Block, Diagnostic, Listing, Options } from './protocol';
 import { Score } from './score';
 import { Live, server } from './server';
@@ -14,7 +16,7 @@ import type { Signer } from './signer';
 import { SignerPane } from './signer-pane';
 import { chosenLanguage, type Language, LANGUAGES, wordsOf } from './words';
 
-const COMPILE_MS = 40; // after the last key
+const COMPILE_MS = 10; // after the last key; a newer text stops an older one
 const RULES_MS = 700;
 const parameters = new URLSearchParams(location.search);
 
@@ -24,8 +26,8 @@ document.documentElement.lang = language;
 document.title = words.title;
 
 class Studio {
-  /** Milliseconds from keys to the picture with the movement that they made; for measuring. */
-  readonly latencies: number[] = [];
+  /** Milliseconds after an edit when its text was sent, its movement came and was drawn; for measuring. */
+  readonly latencies: { sent: number; came: number; drawn: number }[] = [];
   /** Milliseconds that the steps of the server took, for each of them. */
   readonly workerTimes: Record<string, number>[] = [];
   readonly notices = new Notices();
@@ -43,11 +45,13 @@ class Studio {
   private chosen: Block | null = null;
   private lastTyped = 0;
   private begun = 0;
+  private sentAt = 0;
   private timer = 0;
   private rulesTimer = 0;
   private lsp = new Set<(message: string) => void>();
   private readonly layout: Layout;
   private readonly pane: SignerPane;
+  readonly posing: Posing;
   private readonly palette: Palette;
   private readonly reasons: Reasons;
   private readonly versions: Versions;
@@ -73,8 +77,15 @@ class Studio {
     this.files = new Files(words, () => this.document, () => this.editor, this.notices,
       () => this.opened(), () => this.compile());
     const header = this.header();
+    this.pane = new SignerPane(words, () => this.tick(), () => this.options.dominant === 'left');
+    this.posing = new Posing(words, {
+      signer: this.signer,
+      send: act => this.live.send({ ...(act.act === 'open' ? this.job() : {}), ...act, kind: 'pose' }),
+      instant: () => (this.blocks.length > 0 && this.signer ? this.signer.time - this.lead : null),
+      change: (from, to, insert) => this.editor.change(from, to, insert),
+    });
     this.layout = new Layout(words, header, {
-      rules: this.palette.element, blocks: this.blockList.element, reasons: this.reasons.element,
+      rules: this.palette.element, blocks: this.blockList.element, pose: this.posing.element, reasons: this.reasons.element,
       versions: this.versions.element, film: this.film.element, settings: this.settings,
     }, panel => this.panelShown(panel));
     this.score = new Score(words.score, (block, play) => this.pick(block, play), time => this.signer?.seek(time));
@@ -85,11 +96,10 @@ class Studio {
       'Mod-s': () => void this.files.save(), 'Mod-Enter': () => this.pane.toggle(),
     });
     this.layout.score.append(this.score.element);
-    this.pane = new SignerPane(this.layout.signer, words, () => this.tick(),
-      () => this.options.dominant === 'left');
+    this.layout.signer.append(...this.pane.elements);
     this.document = new TextDocument(() => this.live, () => this.files.showState());
     this.live = new Live((answer, data) => this.got(answer, data), () => this.connected(),
-      () => this.notices.show('offline', words.offline, 'warn'));
+      () => this.notices.show('offline', words.offline, 'warn', [[words.newAddress, () => this.move()]]));
     addEventListener('keydown', event => {
       if ((event.ctrlKey || event.metaKey) && event.key === 's') {
         event.preventDefault();
@@ -112,7 +122,17 @@ class Studio {
       ...this.listing.formats.map(suffix => h('option', { value: suffix }, suffix)));
     this.layout.begin();
     void this.dress();
+    const brought = broughtAlong();
     await this.files.begin(this.listing, parameters.get('file'));
+    if (brought !== null) this.editor.replace(brought);
+  }
+
+  /** Goes to the address of a server that was started again; what is typed comes along. */
+  private move(): void {
+    const given = prompt(words.pasteAddress) ?? '';
+    const address = studioAddress(given);
+    if (address) goTo(address, this.document.file, this.editor.text);
+    else if (given) this.notices.show('address', words.noAddress, 'calm');
   }
 
   private opened(): void {
@@ -173,10 +193,15 @@ class Studio {
         this.reasons.report(answer.constraints, answer.marks);
         this.mark();
         break;
+      case 'posed':
+        this.posing.got(answer);
+        break;
       case 'stopped':
+        this.posing.stopped();
         this.pane.status.textContent = `${words.stopped} ${answer.reason}`;
         break;
       case 'refused':
+        this.posing.stopped();
         this.pane.status.textContent = answer.message ?? '';
         if (answer.diagnostics) this.showProblems(answer.diagnostics);
         break;
@@ -186,6 +211,7 @@ class Studio {
 
   private typed(text: string): void {
     this.document.typed(text);
+    this.posing.outdated();
     this.lastTyped = performance.now();
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => this.compile(this.lastTyped), COMPILE_MS);
@@ -197,9 +223,12 @@ class Studio {
     if (!this.live.open || !this.document.file) return;
     this.sent += 1;
     this.begun = since;
-    this.live.send({
-      ...this.options, kind: 'compile', number: this.sent, file: this.document.file, text: this.editor.text,
-    });
+    this.sentAt = performance.now();
+    this.live.send({ ...this.job(), kind: 'compile' });
+  }
+
+  private job(): object {
+    return { ...this.options, number: this.sent, file: this.document.file, text: this.editor.text };
   }
 
   private async loadRules(): Promise<void> {
@@ -216,9 +245,11 @@ class Studio {
   private showClip(answer: Extract<Answer, { kind: 'clip' }>, data: ArrayBuffer): void {
     this.blocks = answer.blocks;
     this.lead = answer.lead_s;
-    const { begun } = this;
+    const { begun, sentAt } = this;
+    const came = performance.now();
     this.signer?.show(data, () => {
-      this.latencies.push(performance.now() - begun);
+      const [sent, drawn] = [sentAt - begun, performance.now() - begun];
+      this.latencies.push({ sent, came: came - begun, drawn });
       this.workerTimes.push(answer.ms);
       this.shownNumber = answer.number;
     });
@@ -226,9 +257,10 @@ class Studio {
     this.chosen = this.blocks[this.score.chosen] ?? null;
     this.pane.status.textContent = '';
     if (answer.diagnostics.length > 0) this.showProblems(answer.diagnostics);
-    if (!matchMedia('(prefers-reduced-motion: reduce)').matches && this.signer?.time === 0)
-      this.signer.play(true);
+    if (!matchMedia('(prefers-reduced-motion: reduce)').matches && this.signer?.time === 0
+      && !this.posing.open) this.signer.play(true);
     this.tick();
+    this.posing.moved();
   }
 
   private showProblems(found: readonly Diagnostic[]): void {
@@ -281,6 +313,7 @@ class Studio {
       this.marked = mark;
       this.editor.mark(innermost ? [innermost] : [], this.placeOf(this.chosen));
     }
+    this.posing.ticked();
     this.film.follow(signer.time, signer.playing, signer.speed);
     this.mark();
   }
@@ -324,6 +357,7 @@ class Studio {
 
   private panelShown(panel: PanelName | null): void {
     if (!this.document?.file) return;
+    this.posing.show(this.layout.current === 'pose');
     if (panel === 'versions') void this.versions.show(this.document.file);
     if (panel === 'blocks') void this.blockList.show().catch(() => undefined);
   }

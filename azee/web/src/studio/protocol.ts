@@ -27,7 +27,7 @@ export interface Block {
   constraints: { text: string; place: [number, number] | null }[];
 }
 
-type Place = [number, number, number];
+export type Place = [number, number, number];
 
 /** Where a site or the tip of an axis is, and where it should be; `base` is the foot of an axis. */
 export interface Mark {
@@ -95,7 +95,55 @@ export interface Options {
   precise: boolean;
 }
 
+/** A point by which a part of the body is dragged; `base` is the foot of an arrow that turns. */
+export interface Grip {
+  handle: string;
+  at: Place;
+  base: Place | null;
+}
+
+/** Rotations xyzw of all joints in the order of the body's skeleton, weights of face units. */
+export interface Posture {
+  rotations: [number, number, number, number][];
+  weights: Record<string, number>;
+}
+
+/** What could be written for what was dragged. `change`: offsets of the editor. */
+export interface Proposal {
+  handle: string;
+  written: string;
+  kind: 'replace' | 'beside' | 'argument' | 'relocate' | 'own-rule' | 'block';
+  where: string;
+  fixes: string;
+  off: number;
+  unit: 'm' | 'rad' | null;
+  change: { from: number; to: number; insert: string };
+}
+
+export type PoseAct =
+  | { act: 'open'; at_s: number }
+  | { act: 'drag'; handle: string; target: readonly number[] }
+  | { act: 'release' | 'propose'; handle: string }
+  | { act: 'close' };
+
+/** What came of an act of posing; `lost`: there is no such session, `message`: why it did nothing. */
+export interface Posed extends Partial<Posture> {
+  kind: 'posed';
+  act: PoseAct['act'];
+  session: number;
+  serial: number;
+  lost?: boolean;
+  message?: string;
+  grips?: Grip[];
+  fingers?: string[];
+  face?: string[];
+  blocked?: string[];
+  missed?: string[];
+  proposals?: Proposal[];
+}
+
 export type Answer =
+  | Posed
   | { kind: 'hello'; root: string }
   | { kind: 'score'; number: number; diagnostics: Diagnostic[]; blocks: Block[]; ms: number }
   | {

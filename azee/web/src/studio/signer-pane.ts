@@ -10,6 +10,7 @@ export class SignerPane {
   /** None where the browser has no WebGL. */
   readonly signer: Signer | null;
   readonly status = h('p', { class: 'status', role: 'status' });
+  readonly elements: readonly HTMLElement[];
   private readonly button = h('button', { type: 'button', class: 'play' });
   private readonly slider: HTMLInputElement;
   private readonly clock = h('output', {});
@@ -17,14 +18,15 @@ export class SignerPane {
   private span: readonly [number, number] | null = null;
 
   /** `changed` is called when the time is another; `mirrored` tells whether the left hand is strong. */
-  constructor(part: HTMLElement, private readonly words: Words, changed: () => void, mirrored: () => boolean) {
+  constructor(private readonly words: Words, changed: () => void, mirrored: () => boolean) {
     const canvas = h('canvas', { tabindex: 0, role: 'img', 'aria-label': words.signer });
     this.slider = h('input', { type: 'range', min: 0, max: 1, step: 0.01, 'aria-label': words.time });
     this.repeat = h('input', { type: 'checkbox', 'aria-label': words.loopBlock });
-    part.append(h('div', { class: 'stage' }, canvas, this.status));
+    const stage = h('div', { class: 'stage' }, canvas, this.status);
     this.signer = signerOn(canvas, changed);
     if (!this.signer) {
       this.status.textContent = words.noWebGL;
+      this.elements = [stage];
       return;
     }
     const { signer } = this;
@@ -35,13 +37,13 @@ export class SignerPane {
       type: 'button', 'aria-label': label, title: label, onclick: () => signer.frame(direction),
     }, text);
     const cameras = Object.keys(CAMERAS) as CameraName[];
-    part.append(h('div', { class: 'controls', role: 'group', 'aria-label': words.signer },
+    this.elements = [stage, h('div', { class: 'controls', role: 'group', 'aria-label': words.signer },
       this.button, step('‹', words.before, -1), step('›', words.after, 1), this.slider, this.clock,
       choice(words.speed, SPEEDS.map(speed => [String(speed), `${speed}×`] as const), String(signer.speed),
         speed => { signer.speed = Number(speed); }),
       h('label', { class: 'check', title: words.loopBlock }, this.repeat, '⟲'),
       choice(words.camera, cameras.map(name => [name, words[name]] as const), 'front',
-        name => signer.look(name as CameraName, mirrored()))));
+        name => signer.look(name as CameraName, mirrored())))];
     this.update(0);
   }
 

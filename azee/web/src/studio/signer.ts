@@ -1,11 +1,14 @@
 // The signer: the body drawn by WebGL, its time, its cameras, and marks of constraints.
-import { BufferGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, SphereGeometry, Vector3 } from 'three';
+import {
+  BufferGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, type Object3D,
+  type PerspectiveCamera, SphereGeometry, Vector3,
+} from 'three';
 import { type Body, loadBody } from '../player/body';
 import { type Movement, WebClip } from '../player/clip';
 import type { Pose } from '../player/pose';
 import { parametersOf, readSettings, type Settings } from '../player/settings';
 import { Stage } from '../player/stage';
-import type { Mark } from './protocol';
+import type { Mark, Posture } from './protocol';
 
 const LONGEST_STEP_S = 0.25;
 const SITE = 0xd96c00, GOAL = 0x0a7d4f;
@@ -43,6 +46,8 @@ export class Signer {
   private clip: WebClip | null = null;
   private movement: Movement | null = null;
   private readonly marks = new Group();
+  /** What is shown in place of the movement, while somebody poses the body. */
+  private held: Posture | null = null;
   private wanted = '';
   private last: number | null = null;
   private drawn: (() => void)[] = [];
@@ -78,7 +83,28 @@ export class Signer {
     this.seek(Math.min(this.time, this.duration));
   }
 
+  /** Shows a posture until the time is another; null: the movement again. */
+  hold(posture: Posture | null): void {
+    this.held = posture;
+    this.pose_();
+  }
+
+  get camera(): PerspectiveCamera {
+    return this.stage.view.camera;
+  }
+
+  /** What of the drawing is the body, in whose metres all places are; null before it is loaded. */
+  get scene(): Object3D | null {
+    return this.body?.scene ?? null;
+  }
+
+  /** Draws again soon. */
+  redraw(): void {
+    this.stage.dirty = true;
+  }
+
   seek(time: number): void {
+    this.held = null;
     this.time = Math.min(Math.max(0, time), this.duration);
     this.pose_();
     this.changed();
@@ -143,6 +169,7 @@ export class Signer {
   private pose_(): void {
     if (!this.body || !this.pose || !this.movement) return;
     this.movement.sample(this.time, this.pose);
+    if (this.held) this.body.take(this.held, this.pose);
     this.body.apply(this.pose);
     this.stage.dirty = true;
   }
@@ -172,7 +199,7 @@ export class Signer {
 
 type Place = readonly [number, number, number];
 
-function line(from: Place, to: Place, color: number): Line {
+export function line(from: Place, to: Place, color: number): Line {
   const ends = [new Vector3(...from), new Vector3(...to)];
   const made = new Line(
     new BufferGeometry().setFromPoints(ends), new LineBasicMaterial({ color, depthTest: false }),
@@ -181,9 +208,9 @@ function line(from: Place, to: Place, color: number): Line {
   return made;
 }
 
-function dot(at: Place, color: number): Mesh {
+export function dot(at: Place, color: number, radius = DOT_M): Mesh {
   const made = new Mesh(
-    new SphereGeometry(DOT_M, 12, 8), new MeshBasicMaterial({ color, depthTest: false }),
+    new SphereGeometry(radius, 12, 8), new MeshBasicMaterial({ color, depthTest: false }),
   );
   made.position.set(...at);
   made.renderOrder = 11;

@@ -124,7 +124,7 @@ def _recording(
 def _times(keys: list[Floats]) -> Floats:
     """Return even times over all keys, or the keys themselves where they are denser."""
     start, end = min(t[0] for t in keys), max(t[-1] for t in keys)
-    longest = max(keys, key=len)
+    longest: Floats = max(keys, key=len)
     if len(longest) > 1 and longest[0] == start and longest[-1] == end:
         step = (end - start) / (len(longest) - 1)
         if step <= 1.5 / FPS:

@@ -58,11 +58,12 @@ def test_retarget_takes_them(
 def _file(path: Path, how: str, values: list[list[float]], times: list[float]) -> Path:
     """Write a node that turns, and one below it at rest turned the other way."""
     half = 0.5**0.5
+    turned = [0.0, 0.0, half, half]
     data = np.array(times, np.float32).tobytes() + np.array(values, np.float32).tobytes()
     document = {
         "asset": {"version": "2.0"},
         "nodes": [
-            {"name": "a", "children": [1], "translation": [0, 1, 0], "rotation": [0, 0, half, half]},
+            {"name": "a", "children": [1], "translation": [0, 1, 0], "rotation": turned},
             {"name": "b", "translation": [1, 0, 0], "rotation": [0, 0, -half, half]},
         ],
         "scenes": [{"nodes": [0]}],

@@ -1,6 +1,6 @@
-"""Our landmarks beside those that the tracker sees in our film: `python -m benchmarks.tracker.beside`.
+"""Our landmarks beside those that the tracker sees in our film.
 
-A text is filmed, MediaPipe looks for the person, and its points are compared with those that
+`python -m benchmarks.tracker.beside [EXPRESSION]`: a text is filmed, MediaPipe looks for the person, and its points are compared with those that
 `azee export landmarks` writes for the same camera. Distances are centimetres at the signer: pixels
 by the width of the shoulders.
 """

@@ -132,7 +132,7 @@ def _times(keys: list[Floats]) -> Floats:
     count = int(np.floor((end - start) * FPS + 1e-6)) + 1
     if count > MOST_FRAMES:
         raise GltfMotionError(f"its animation is {end - start:.0f} s long")
-    return start + np.arange(count) / FPS
+    return np.asarray(start + np.arange(count) / FPS)
 
 
 def _joints(file: GltfFile, nodes: Nodes, moved: set[int]) -> tuple[int, ...]:

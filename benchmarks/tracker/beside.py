@@ -1,8 +1,8 @@
 """Our landmarks beside those that the tracker sees in our film.
 
-`python -m benchmarks.tracker.beside [EXPRESSION]`: a text is filmed, MediaPipe looks for the person, and its points are compared with those that
-`azee export landmarks` writes for the same camera. Distances are centimetres at the signer: pixels
-by the width of the shoulders.
+`python -m benchmarks.tracker.beside [EXPRESSION]`: a text is filmed, MediaPipe looks for the
+person, and its points are compared with those that `azee export landmarks` writes for the same
+camera. Distances are centimetres at the signer: pixels by the width of the shoulders.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ def write_foreign_avatar(
         )
         if above:
             nodes[number[above]].setdefault("children", []).append(number[bone])  # type: ignore[attr-defined]
-    expressions = {
+    expressions: dict[str, dict[str, dict[str, object]]] = {
         "preset": {"aa": {}, "blinkLeft": {}, "blinkRight": {}},
         "custom": {"browInnerUp": {}, "mouthSmileLeft": {}},
     }

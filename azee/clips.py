@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from azee.clip.retarget import Retargeted
     from azee_rig.rig import Rig
 
-CLIP_SUFFIXES = (".npz", ".bvh")
+CLIP_SUFFIXES = (".npz", ".bvh", ".glb", ".gltf", ".vrm", ".vrma")
 """Formats from which clips are read."""
 SHIPPED = "signer"
 OUR_UNIT = "cm"
@@ -35,47 +35,52 @@ class OpenClip:
 
 
 def open_clip(path: str | Path, rig: Rig | None = None) -> OpenClip:
-    """Read a clip that `azee` stored (.npz) or a BVH file.
+    """Read a clip that `azee` stored (.npz), a BVH file or the animation of a glTF file.
 
     Args: rig: the body; by default the one that a stored clip names, else the signer.
     Raises: AZeeError: cannot-read, not-a-clip. RigError: the body cannot be read.
     """
     path = Path(path)
     with reading(path):
-        if _is_bvh(path):
-            return _recorded(path, rig)
-        return _stored(path, rig)
+        if _kind(path) == "clip":
+            return _stored(path, rig)
+        return _recorded(path, rig)
 
 
 def open_recording(path: str | Path, unit: str | None = None) -> Recording | None:
-    """Read a BVH file as it was recorded; None where the file is a clip that `azee` stored.
+    """Read a BVH or glTF file as it was recorded; None where it is a clip that `azee` stored.
 
-    Args: unit: of its lengths; by default it is guessed.
+    Args: unit: of a BVH's lengths; by default it is guessed.
     Raises: AZeeError: cannot-read, not-a-clip.
     """
     from azee.clip.bvh import read_bvh
     from azee.clip.bvh_hierarchy import BvhError
+    from azee.clip.gltf_motion import GltfMotionError, read_gltf_motion
 
     path = Path(path)
     with reading(path):
-        if not _is_bvh(path):
+        kind = _kind(path)
+        if kind == "clip":
             return None
         try:
-            return read_bvh(path, unit)
-        except BvhError as error:
+            return read_gltf_motion(path) if kind == "gltf" else read_bvh(path, unit)
+        except (BvhError, GltfMotionError) as error:
             raise AZeeError(_no_clip(f"`{path}`: {error}")) from error
 
 
-def _is_bvh(path: Path) -> bool:
-    """Whether a file is BVH rather than a clip. Raises: OSError. AZeeError: it is neither."""
+def _kind(path: Path) -> str:
+    """Return "bvh", "gltf" or "clip". Raises: OSError. AZeeError: it is none of these."""
     from azee.clip.file_kind import motion_kind
 
     kind = motion_kind(path)
-    if kind in ("bvh", "clip", ""):
-        return kind == "bvh"
+    if kind in ("bvh", "clip", "gltf"):
+        return kind
+    if not kind:
+        return "clip"
     raise AZeeError(
         _no_clip(
-            f"`{path}` is {kind}; motion is read from BVH of any skeleton and from clips (.npz)",
+            f"`{path}` is {kind}; motion is read from BVH and glTF of any skeleton and from clips "
+            "(.npz)",
             "export it as BVH: Blender does, with File > Export > Motion Capture",
         )
     )

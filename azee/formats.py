@@ -98,6 +98,34 @@ def _npz(clip: Clip, rig: Rig, path: Path) -> None:
         write_clip(clip, rig, file)
 
 
+def _pose(clip: Clip, rig: Rig, path: Path) -> None:
+    from azee.export.landmarks.files import write_pose
+    from azee.export.landmarks.view import landmarks
+
+    with frames_counted():
+        write_pose(landmarks(clip, rig), path)
+
+
+def _vrma(clip: Clip, rig: Rig, path: Path) -> None:
+    from azee.export.formats.vrm.vrma import write_vrma
+
+    write_vrma(clip, rig, path)
+
+
+@contextmanager
+def frames_counted() -> Iterator[None]:
+    """Turn a clip that would have too many frames into a diagnostic.
+
+    Raises: AZeeError: clip-times.
+    """
+    from azee.clip.resample import TooManyFramesError
+
+    try:
+        yield
+    except TooManyFramesError as error:
+        raise AZeeError(Diagnostic("clip-times", str(error), None)) from error
+
+
 def _film(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
     from azee.export.pictures.film import write_film
 
@@ -111,19 +139,17 @@ def filming() -> Iterator[None]:
 
     Raises: AZeeError: not-installed, clip-times.
     """
-    from azee.clip.resample import TooManyFramesError
     from azee.export.pictures.film import NoEncoderError
 
     try:
-        yield
+        with frames_counted():
+            yield
     except NoEncoderError as error:
         raise AZeeError(
             Diagnostic(
                 "not-installed", str(error), None, help="install it with: pip install 'azee[film]'"
             )
         ) from error
-    except TooManyFramesError as error:
-        raise AZeeError(Diagnostic("clip-times", str(error), None)) from error
 
 
 def _score_svg(score: Score, rows: Sequence[Row], header: ElanHeader, path: Path) -> None:
@@ -201,7 +227,14 @@ ClipWriter: TypeAlias = "Callable[[Clip, Rig, Path], None]"
 ScoreWriter: TypeAlias = "Callable[[Score, Sequence[Row], ElanHeader, Path], None]"
 Writer: TypeAlias = "Callable[[Score, Rig, Animation, Path], None]"
 
-CLIP_WRITERS: dict[str, ClipWriter] = {".glb": _glb, ".bvh": _bvh, ".json": _json, ".npz": _npz}
+CLIP_WRITERS: dict[str, ClipWriter] = {
+    ".glb": _glb,
+    ".vrma": _vrma,
+    ".bvh": _bvh,
+    ".json": _json,
+    ".npz": _npz,
+    ".pose": _pose,
+}
 """Formats of a clip alone."""
 SCORE_WRITERS: dict[str, ScoreWriter] = {
     ".svg": _score_svg,
@@ -227,4 +260,6 @@ CHART_SUFFIXES = (".svg", ".png", ".pdf")
 """Suffixes of charts of a corpus, which need the extra `charts`."""
 CORPUS_SUFFIXES = (".csv", ".json", *CHART_SUFFIXES)
 """Suffixes of what the counts of a corpus can be written as."""
+LANDMARK_SUFFIXES = (".pose", ".csv", ".npz")
+"""Suffixes of landmarks."""
 WRITERS |= dict.fromkeys(FILM_SUFFIXES, _film)

@@ -25,6 +25,7 @@ from azee.cli.console import DONE, FAULT, INTERRUPTED, show
 from azee.cli.corpus import corpus
 from azee.cli.db import db
 from azee.cli.elan import elan
+from azee.cli.export import export
 from azee.cli.find import find
 from azee.cli.fmt import fmt
 from azee.cli.gloss import gloss
@@ -62,6 +63,7 @@ azee.add_command(score)
 azee.add_command(pose)
 azee.add_command(render)
 azee.add_command(clip)
+azee.add_command(export)
 azee.add_command(find)
 azee.add_command(lexicon)
 azee.add_command(gloss)

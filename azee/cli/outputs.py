@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,17 @@ import click
 
 from azee.formats import cannot_write
 from azee_grammar.diagnostic import AZeeError
+
+_SIZE = re.compile(r"(\d{1,5})\s*[x×]\s*(\d{1,5})", re.ASCII)
+
+
+def picture_size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
+    """Return width and height of an option such as 1280x720. Raises: click.BadParameter."""
+    found = _SIZE.fullmatch(value)
+    size = (int(found[1]), int(found[2])) if found else (0, 0)
+    if not all(16 <= side <= 8192 for side in size):
+        raise click.BadParameter(f"`{value}` is no size such as 1280x720, from 16 to 8192 pixels")
+    return size
 
 
 def with_suffix(*suffixes: str) -> Callable[..., Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,7 +12,7 @@ from click.core import ParameterSource
 from azee.cli.body import load_body
 from azee.cli.console import bar, news, working
 from azee.cli.number import Number, Seconds
-from azee.cli.outputs import check_outputs, size_of, with_suffix
+from azee.cli.outputs import check_outputs, picture_size, size_of, with_suffix
 from azee.cli.text import (
     Text,
     dominant_option,
@@ -38,15 +37,6 @@ OF_TEXTS = (
     "no_life",
 )  # fmt: skip
 """Options that say how a text is read and solved."""
-_SIZE = re.compile(r"(\d{1,5})\s*[x×]\s*(\d{1,5})", re.ASCII)
-
-
-def _size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
-    found = _SIZE.fullmatch(value)
-    size = (int(found[1]), int(found[2])) if found else (0, 0)
-    if not all(16 <= side <= 8192 for side in size):
-        raise click.BadParameter(f"`{value}` is no size such as 1280x720, from 16 to 8192 pixels")
-    return size
 
 
 @click.command(short_help="Pictures and films, without a display.")
@@ -71,7 +61,11 @@ def _size(_: click.Context, __: click.Parameter, value: str) -> tuple[int, int]:
     help="From where; several stand side by side. Those on face and hands follow them.",
 )
 @click.option(
-    "--size", default="1280x720", show_default=True, callback=_size, help="Pixels, WIDTHxHEIGHT."
+    "--size",
+    default="1280x720",
+    show_default=True,
+    callback=picture_size,
+    help="Pixels, WIDTHxHEIGHT.",
 )
 @click.option(
     "--fps",

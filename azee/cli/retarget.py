@@ -50,7 +50,7 @@ def retarget(
     report: Path | None,
     quiet: bool,
 ) -> int:
-    """Play the motion of FILE, a BVH of any skeleton with arms or a clip (.npz), on a body.
+    """Play the motion of FILE on a body: BVH or glTF of any skeleton with arms, VRMA, or a clip.
 
     Kept are: where the hands are from the middle of the shoulders, in arm lengths, how the palms
     are turned, how fingers bend, how trunk and head turn. Legs and the way of the body are not.

@@ -93,7 +93,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.export": {"azee.score", "azee.motion.tasks", "azee_grammar", "azee_rig"} | DECLARATIONS,
     "azee.export.formats": {
         *("azee.export.files", "azee.export.score_layout", "azee.export.track_rows"),
-        *("azee.clip", "azee.score", "azee_rig", "numpy"),
+        *("azee.export.npz", "azee.clip", "azee.score", "azee_rig", "numpy"),
         *DECLARATIONS,
     },
     "azee.export.pictures": {
@@ -101,6 +101,11 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee.clip", "azee.score", "azee_rig", "numpy", "PIL", "numba", "av"),
         *DECLARATIONS,
     },
+    "azee.export.landmarks": {
+        *("azee.export.files", "azee.export.formats", "azee.export.npz"),
+        *("azee.export.pictures", "azee.clip", "azee_rig", "numpy"),
+    },
+    "azee.export.npz": {"azee.export.files", "numpy"},
     "azee.formats": {"azee.animation", "azee.clip", "azee.export", "azee.motion", "azee.score"}
     | {"azee_grammar", "azee_rig"},
     "azee.clips": {"azee.clip", "azee.formats", "azee_grammar", "azee_rig"},

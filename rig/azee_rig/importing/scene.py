@@ -48,9 +48,10 @@ class Target:
 class SceneBody:
     """A body as its makers left it, in the space and the unit of the scene.
 
-    joints: unique names, parents before children; parents (J,); places (J, 3); nodes: their
-    numbers in the file. vertices (N, 3); triangles (F, 3); parts: materials; colours (N, 3)
-    linear. influences (N, K) joints, weights (N, K) summing to 1. targets: morph targets.
+    joints: unique names, parents before children; parents (J,); places (J, 3); bound (J, 4, 4):
+    where they were bound; nodes: their numbers in the file. vertices (N, 3); triangles (F, 3);
+    parts: materials; colours (N, 3) linear. influences (N, K) joints, weights (N, K) summing to 1.
+    targets: morph targets.
     posed: whether the nodes stand in another posture than the one that was bound.
     notes: what was left out or put right.
     """
@@ -58,6 +59,7 @@ class SceneBody:
     joints: tuple[str, ...]
     parents: Ints
     places: Floats
+    bound: Floats
     nodes: tuple[int, ...]
     vertices: Floats
     triangles: Ints
@@ -234,7 +236,8 @@ def _joined(found: _Collected, file: GltfFile, nodes: Nodes) -> SceneBody:
     weights[~np.isin(influences, joints)] = 0.0
     lookup = np.zeros(len(nodes.names), np.int64)
     lookup[list(index)] = list(index.values())
-    places = _places(found, nodes, joints)
+    bound = _bound(found, nodes, joints)
+    places = bound[:, :3, 3]
     vertices = np.vstack(found.moved)
     influences = lookup[influences]
     free = weights.sum(axis=1) <= 1e-6
@@ -243,7 +246,7 @@ def _joined(found: _Collected, file: GltfFile, nodes: Nodes) -> SceneBody:
         held = sorted({index[j] for j in found.bind})
         influences[free, 0] = np.array(held)[nearest_of(vertices[free], places[held])[0]]
         weights[free, 0] = 1.0
-    bound = np.array([places[index[j]] for j in found.bind])
+    held_at = np.array([places[index[j]] for j in found.bind])
     stand = np.array([nodes.world[j][:3, 3] for j in found.bind])
     size = float(np.ptp(vertices, axis=0).max())
     parts, colours, lost = painted(file, found.primitives)
@@ -252,6 +255,7 @@ def _joined(found: _Collected, file: GltfFile, nodes: Nodes) -> SceneBody:
         joints=_names(joints, nodes),
         parents=np.array([index.get(nodes.parents[node], -1) for node in joints]),
         places=places,
+        bound=bound,
         nodes=joints,
         vertices=vertices,
         triangles=np.vstack(
@@ -262,7 +266,7 @@ def _joined(found: _Collected, file: GltfFile, nodes: Nodes) -> SceneBody:
         influences=influences,
         weights=weights / weights.sum(axis=1, keepdims=True),
         targets=tuple(_targets(found, starts)),
-        posed=bool(np.abs(bound - stand).max() > SAME_M * size),
+        posed=bool(np.abs(held_at - stand).max() > SAME_M * size),
         notes=tuple(notes),
     )
 
@@ -292,7 +296,8 @@ def _joint_nodes(found: _Collected, nodes: Nodes) -> tuple[int, ...]:
     return tuple(n for n in nodes.order if n in below and (n in under or n in over))
 
 
-def _places(found: _Collected, nodes: Nodes, joints: Sequence[int]) -> Floats:
+def _bound(found: _Collected, nodes: Nodes, joints: Sequence[int]) -> Floats:
+    """Return where each joint was bound, (J, 4, 4) in the scene."""
     bind: dict[int, Floats] = {}
     for node in joints:
         if node in found.bind:
@@ -301,7 +306,7 @@ def _places(found: _Collected, nodes: Nodes, joints: Sequence[int]) -> Floats:
             bind[node] = bind[nodes.parents[node]] @ nodes.local[node]
         else:
             bind[node] = nodes.world[node]
-    return np.array([bind[node][:3, 3] for node in joints])
+    return np.array([bind[node] for node in joints])
 
 
 def _names(joints: Sequence[int], nodes: Nodes) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -65,6 +65,31 @@ def add_animation(
         channel(mesh_node, "weights", weights, [0.0])
     if not channels:
         keys(nodes[0], "rotation", np.array([REST]))
+    return document.add(
+        "animations",
+        name=_title(clip.labels),
+        samplers=samplers,
+        channels=channels,
+        extras={"labels": _labels(clip.labels, clip.times[0])},
+    )
+
+
+def add_tracks(document: Document, clip: Clip, rows: Mapping[tuple[int, str], Floats]) -> int:
+    """Add an animation of the rows given, (T, …) by node and path; returns its index.
+
+    Rotations are (T, 4) wxyz. What never moves has one key.
+    """
+    times = (clip.times - clip.times[0]).astype(np.float32)
+    known: dict[int, int] = {}
+    samplers: list[dict[str, Any]] = []
+    channels: list[dict[str, Any]] = []
+    for (node, path), values in rows.items():
+        values = _xyzw(values) if path == "rotation" else values
+        kept = values if np.abs(values - values[0]).max() >= STILL else values[:1]
+        flat = kept.astype(np.float32).reshape((-1,) if path == "weights" else kept.shape)
+        inputs = _times(document, times[: len(kept)], known)
+        samplers.append({"input": inputs, "output": document.accessor(flat)})
+        channels.append({"sampler": len(samplers) - 1, "target": {"node": node, "path": path}})
     return document.add(
         "animations",
         name=_title(clip.labels),

@@ -1,0 +1,1 @@
+"""VRM 1.0: our bodies as avatars, and movements that any avatar plays (VRMA)."""

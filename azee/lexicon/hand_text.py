@@ -104,9 +104,9 @@ def _rule(shape: HandShape, hand: str, *, yields: bool) -> str:
     if bend != BENDS["straight"] and form.base != "fist":
         arguments.append(f"'bend = {_bend(bend)}")
     if _is_between_thumbs(shape):
-        arguments.append(f"'thumb = {_thumb_between(shape)}")
+        arguments.append(f"'thumb = {_yielding(_thumb_between(shape), yields=yields)}")
     elif form.thumb:
-        arguments.append(f"'thumb = {_thumb(form)}")
+        arguments.append(f"'thumb = {_yielding(_thumb(form), yields=yields)}")
     name = {"flat": "flathand"}.get(form.base, form.base)
     return f":#ham{name}" + (f"({', '.join(arguments)})" if arguments else "")
 
@@ -115,6 +115,14 @@ def _general(hand: str, *, yields: bool) -> list[str]:
     """Return the arguments that all rules of handshapes have."""
     side = [] if hand == "s" else [f"'side = {hand}"]
     return [*side, f"'yield = {YIELD_DEGREES}"] if yields else side
+
+
+def _yielding(thumb: str, *, yields: bool) -> str:
+    """Return a thumb that yields, if its rule tells angles; others are led by what they are at."""
+    if not yields or not thumb.startswith((".thumb-out", ".thumb-opposed", ".thumb(")):
+        return thumb
+    bound = f"'yield = {YIELD_DEGREES}"
+    return f"{thumb[:-1]}, {bound})" if thumb.endswith(")") else f"{thumb}({bound})"
 
 
 def _is_between_thumbs(shape: HandShape) -> bool:
@@ -163,7 +171,7 @@ def _finger_by_finger(shape: HandShape, hand: str, told: Told, *, yields: bool) 
     arguments += [f"'{_NAMES[d]} = {_bend(bend)}" for d, bend in bends.items() if bend != _CLOSED]
     if spread:
         arguments.append(f"'spread = {number(spread)}")
-    arguments.append(f"'thumb = {_any_thumb(shape, bends)}")
+    arguments.append(f"'thumb = {_yielding(_any_thumb(shape, bends), yields=yields)}")
     crossed = [f"morph 'fingers_crossed {hand} 1"] if _is_crossed(shape) else []
     return [f":#hand-of({', '.join(arguments)})", *crossed]
 

@@ -156,6 +156,9 @@ def test_fingers_that_touch_yield_within_what_notations_distinguish() -> None:
     assert ":#hamflathand('yield = 20)" in _rule(
         f"<sign_manual>{POINTING_UP}{touching}</sign_manual>"
     )
+    out = POINTING_UP.replace("/>", ' thumbpos="out"/>')
+    text = _rule(f"<sign_manual>{out}{touching}</sign_manual>")
+    assert ":#hamflathand('yield = 20, 'thumb = .thumb-out('yield = 20))" in text
     close = touching.replace("touch", "close")
     assert "'yield" not in _rule(f"<sign_manual>{POINTING_UP}{close}</sign_manual>")
 

@@ -82,7 +82,7 @@ HAND_BONES = ("palm", "thumb", "index", "middle", "ring", "little")
 OWN_BONES = {
     "palm": ("palm",),
     "handback": ("palm",),
-    "thumbside": ("palm", "index"),
+    "thumbside": ("palm", "index", "thumb"),
     "pinkyside": ("palm", "little"),
     "thumbball": ("palm", "thumb"),
     "wristback": ("palm", "f_arm"),
@@ -299,11 +299,13 @@ def _touch(name: str, element: ET.Element) -> Iterator[tuple[str, Touch]]:
         yield name, Touch(own, _bones(element), (), 0.0)
         return
     places = [element.get("location"), element.get("second_location")]
-    sites = [site for place in places for site in SKIN_SITES.get(place or "", ())]
+    sites, second = (SKIN_SITES.get(place or "", ()) for place in places)
     if sites:
         face = places[0] in FACE_SITES or places[0] == "underchin"
-        radius = FACE_RADIUS_M if face else TRUNK_RADIUS_M
-        yield name, Touch(own, BODY_BONES, tuple(sites), radius)
+        if face:
+            yield name, Touch(own, BODY_BONES, sites, FACE_RADIUS_M, second)
+        else:  # the skin between its sites belongs to a part of the trunk, too
+            yield name, Touch(own, BODY_BONES, sites, TRUNK_RADIUS_M, second or sites)
 
 
 def _bones(part: ET.Element) -> tuple[str, ...]:

@@ -29,13 +29,15 @@ class Touch:
 
     own: parts of the hand that touches: bones, or digits, without `_L` or `_R`. on: what is
     touched: parts of the other hand, or with `near` bones of the body by their full names.
-    near: sites about which the skin of the body counts. radius_m: how far about them.
+    near: sites about which the skin of the body counts. second: those of the other place, where
+    the touch is between two; the skin about the middles counts too. radius_m: how far about them.
     """
 
     own: tuple[str, ...]
     on: tuple[str, ...]
     near: tuple[str, ...]
     radius_m: float
+    second: tuple[str, ...] = ()
 
 
 def gap_m(rig: Rig, frames: Frames, touch: Touch, side: str) -> float:
@@ -51,7 +53,12 @@ def gap_m(rig: Rig, frames: Frames, touch: Touch, side: str) -> float:
     skins = [_posed(rig, bone, frames) for bone in bones]
     surface = np.vstack([vertices[triangles] for vertices, triangles in skins])
     if touch.near:
-        sites = np.array([rig.sites[key].point(frames) for key in touch.near])
+        first, second = (
+            np.array([rig.sites[key].point(frames) for key in keys]).reshape(-1, 3)
+            for keys in (touch.near, touch.second)
+        )
+        middles = ((first[:, None] + second) / 2).reshape(-1, 3)
+        sites = np.vstack([first, second, middles])
         away = np.linalg.norm(surface.mean(axis=1)[:, None] - sites, axis=2).min(axis=1)
         surface = surface[away <= touch.radius_m]
     low, high = surface.min(axis=(0, 1)), surface.max(axis=(0, 1))

@@ -71,8 +71,8 @@ def _yielding(at: Occurrence, values: tuple[Value, ...], i: int) -> tuple[float,
     i += 1
     if i >= len(values) or not isinstance(bound := values[i], NumberValue):
         return math.radians(SOFT_DEG), i
-    if not 0 < bound.content <= 180:
-        message = "a morph yields by more than 0 and at most 180 degrees"
+    if not 0 <= bound.content <= 180:
+        message = "a morph yields by at least 0 and at most 180 degrees"
         raise at.fault("number-range", message, "item", i)
     return math.radians(bound.content), i + 1
 

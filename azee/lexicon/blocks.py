@@ -106,8 +106,10 @@ def _runs(phrase: Phrase, name: str, told: Told) -> Iterator[_Run]:
     moments = _moments(phrase, name)
     if not moments:
         return
+    yields = name in _touching(phrase)
     shapes = [
-        () if m.hand.shape is None else tuple(hand_text(m.hand.shape, name, told)) for m in moments
+        () if m.hand.shape is None else tuple(hand_text(m.hand.shape, name, told, yields=yields))
+        for m in moments
     ]
     turned = [tuple(orientation_text(m.hand, name)) for m in moments]
     stays = not any(move.name == name for move in phrase.moves)
@@ -124,6 +126,16 @@ def _runs(phrase: Phrase, name: str, told: Told) -> Iterator[_Run]:
     yield from _aspect(moments, shapes, [], phrase.duration_s)
     yield from _aspect(moments, turned, [], phrase.duration_s)
     yield from _aspect(moments, placed, moves, phrase.duration_s)
+
+
+def _touching(phrase: Phrase) -> frozenset[str]:
+    """Return the hands that touch something at any moment, or are touched by the other."""
+    found = set[str]()
+    for moment in phrase.moments:
+        place = moment.hand.place
+        if place is not None and place.touches:
+            found |= {moment.name, other(moment.name)} if place.is_at_hand else {moment.name}
+    return frozenset(found)
 
 
 def _placed(before: Moment | None, moment: Moment, site: Site | None, *, stays: bool) -> list[str]:

@@ -11,9 +11,9 @@ from azee.lexicon.vectors import Vector, is_close, length
 WITHIN_DEGREES = 24
 WITHIN_M = 0.02
 """How far off a hand may be that stays where it is."""
-NEAR_TRUNK_M, NEAR_SKIN_M = 0.01, 0.003
-"""How far a hand that touches may be from a point between sites, of the trunk and elsewhere: such
-a point is near the skin, not on it, and a hand that may be farther off need not touch it."""
+NEAR_SKIN_M = 0.003
+"""How far a hand that touches may be from a point between sites of the other hand, which is near
+its skin, not on it."""
 _NAMED: dict[Vector, str] = {
     (0, 1, 0): "^up",
     (0, -1, 0): "^down",
@@ -45,10 +45,10 @@ def place_text(hand: Hand, name: str, *, stays: bool) -> list[str]:
     text = f"place {hand.site.text} {point_text(place, name)}"
     if place.gap:
         text += f" 'dist {number(place.gap)}"
-    elif place.touches and len(place.sites) == 1 and is_close(place.offset, (0, 0, 0), _LEAST_M):
+    elif place.touches and place.is_on_skin:
         text += " 'contact"
     elif place.touches:
-        text += f" 'contact 'within {number(NEAR_TRUNK_M if place.is_at_trunk else NEAR_SKIN_M)}"
+        text += f" 'contact 'within {number(NEAR_SKIN_M)}"
     elif place.is_space and stays:
         text += f" 'within {number(WITHIN_M)}"
     return [text]

@@ -26,18 +26,25 @@ _CLEAR = 0.3
 """How much of a direction must be sideways for left and right of a finger to be clear."""
 
 
-def site_of(part: HandPart, hand: str, fingers: Vector | None, palm: Vector | None) -> Site:
+def site_of(
+    part: HandPart,
+    hand: str,
+    fingers: Vector | None,
+    palm: Vector | None,
+    shape: HandShape | None = None,
+) -> Site:
     """Return the site of a part of one hand.
 
     Left and right of a finger depend on how the hand is held: `fingers` and `palm` are the
-    directions of its fingers and of its palm.
+    directions of its fingers and of its palm. shape: a thumb that lies along the index is the
+    thumb's side of the hand.
     """
     digit = _middle_digit(part.digits)
     if digit:
         return _of_digit(FINGER[digit], part, hand, _thumb_side(part.side, hand, fingers, palm))
     match part.part:
         case "thumbside":
-            return Site("I_KNt", hand, 1)
+            return Site("T_BACK", hand, 2) if _thumb_is_beside(shape) else Site("I_KNt", hand, 1)
         case "palm" if part.side in _OUTER:
             return Site("H_BACK", hand)
         case "wristback" if part.side in _INNER:
@@ -57,6 +64,11 @@ def usual_site(shape: HandShape | None, hand: str, *, touches: bool) -> Site:
     if touches and base not in ("flat", "fist", "finger2345"):
         return Site("I_TIP", hand)
     return Site("PA", hand)
+
+
+def _thumb_is_beside(shape: HandShape | None) -> bool:
+    """Whether the thumb lies along the index, as it does where nothing else is said of it."""
+    return shape is not None and shape.form.base in ("flat", "fist") and shape.form.thumb is None
 
 
 def _middle_digit(digits: str) -> str:

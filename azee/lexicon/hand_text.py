@@ -37,6 +37,9 @@ _FINGERS = {
 }
 """The fingers that a form is about."""
 _NAMES = dict(zip("2345", ("index", "middle", "ring", "little"), strict=True))
+YIELD_DEGREES = 20
+"""How far joints of a hand that touches something may yield: half of what a straight finger and a
+round one differ by."""
 _CLOSED = (0.955, 0.95)
 _PINCHED = {"pinch12": (0.68, 0.62), "pinch12open": (0.68, 0.62), "pinchall": (0.92, 0.48)}
 _BEND_RULES = {bend_of(name): f":finger-{name}" for name in BENDS if name != "halfbent"}
@@ -64,16 +67,17 @@ _USUAL_THUMB = {
 }
 
 
-def hand_text(shape: HandShape, hand: str, told: Told) -> list[str]:
+def hand_text(shape: HandShape, hand: str, told: Told, *, yields: bool = False) -> list[str]:
     """Return a handshape as lines of a constraint set.
 
     Shapes that the core has as a rule are written by their name; others finger by finger. What
-    neither can say is told.
+    neither can say is told. yields: whether digits yield to what they touch, within what the
+    notation distinguishes.
     """
     _tell_losses(shape, told)
     if _is_plain(shape):
-        return [_rule(shape, hand)]
-    return _finger_by_finger(shape, hand, told)
+        return [_rule(shape, hand, yields=yields)]
+    return _finger_by_finger(shape, hand, told, yields=yields)
 
 
 def _is_plain(shape: HandShape) -> bool:
@@ -91,20 +95,34 @@ def _is_ring(base: str) -> bool:
     return base.startswith(("pinch", "cee"))
 
 
-def _rule(shape: HandShape, hand: str) -> str:
+def _rule(shape: HandShape, hand: str, *, yields: bool) -> str:
     form = shape.form
-    arguments = [] if hand == "s" else [f"'side = {hand}"]
+    arguments = _general(hand, yields=yields)
     bend = bend_of(form.bend)
     if shape.second is not None:
         bend = _between(bend, bend_of(shape.second.bend))
     if bend != BENDS["straight"] and form.base != "fist":
         arguments.append(f"'bend = {_bend(bend)}")
     if _is_between_thumbs(shape):
-        arguments.append(f"'thumb = {_thumb_between(shape)}")
+        arguments.append(f"'thumb = {_yielding(_thumb_between(shape), yields=yields)}")
     elif form.thumb:
-        arguments.append(f"'thumb = {_thumb(form)}")
+        arguments.append(f"'thumb = {_yielding(_thumb(form), yields=yields)}")
     name = {"flat": "flathand"}.get(form.base, form.base)
     return f":#ham{name}" + (f"({', '.join(arguments)})" if arguments else "")
+
+
+def _general(hand: str, *, yields: bool) -> list[str]:
+    """Return the arguments that all rules of handshapes have."""
+    side = [] if hand == "s" else [f"'side = {hand}"]
+    return [*side, f"'yield = {YIELD_DEGREES}"] if yields else side
+
+
+def _yielding(thumb: str, *, yields: bool) -> str:
+    """Return a thumb that yields, if its rule tells angles; others are led by what they are at."""
+    if not yields or not thumb.startswith((".thumb-out", ".thumb-opposed", ".thumb(")):
+        return thumb
+    bound = f"'yield = {YIELD_DEGREES}"
+    return f"{thumb[:-1]}, {bound})" if thumb.endswith(")") else f"{thumb}({bound})"
 
 
 def _is_between_thumbs(shape: HandShape) -> bool:
@@ -130,7 +148,7 @@ def _thumb(form: Form) -> str:
     return _THUMBS[form.thumb].get(form.base, _USUAL_THUMB[form.thumb])
 
 
-def _finger_by_finger(shape: HandShape, hand: str, told: Told) -> list[str]:
+def _finger_by_finger(shape: HandShape, hand: str, told: Told, *, yields: bool) -> list[str]:
     form = shape.form
     bends = _bends(form, shape.fingers)
     spread = _spread(form)
@@ -148,12 +166,12 @@ def _finger_by_finger(shape: HandShape, hand: str, told: Told) -> list[str]:
     if touching is not None:
         if not _is_bent_pinch(shape):
             bends[touching] = _PINCHED["pinch12"]
-        return _touching_hand(shape, hand, bends, touching, spread)
-    arguments = [] if hand == "s" else [f"'side = {hand}"]
+        return _touching_hand(shape, hand, bends, touching, spread, yields=yields)
+    arguments = _general(hand, yields=yields)
     arguments += [f"'{_NAMES[d]} = {_bend(bend)}" for d, bend in bends.items() if bend != _CLOSED]
     if spread:
         arguments.append(f"'spread = {number(spread)}")
-    arguments.append(f"'thumb = {_any_thumb(shape, bends)}")
+    arguments.append(f"'thumb = {_yielding(_any_thumb(shape, bends), yields=yields)}")
     crossed = [f"morph 'fingers_crossed {hand} 1"] if _is_crossed(shape) else []
     return [f":#hand-of({', '.join(arguments)})", *crossed]
 
@@ -202,11 +220,14 @@ def _touching_hand(
     bends: Mapping[str, tuple[float, float]],
     touching: str,
     spread: float,
+    *,
+    yields: bool,
 ) -> list[str]:
     """Return a hand whose thumb touches a finger, which yields so far that they meet."""
     items = []
+    others = f" 'soft {YIELD_DEGREES}" if yields else ""
     for digit, bend in bends.items():
-        soft = " 'soft" if digit == touching else ""
+        soft = " 'soft" if digit == touching else others
         for word, weight in zip(("bend", "hook"), bend, strict=True):
             items.append(f"'{_NAMES[digit]}_{word} {hand} {number(weight)}{soft}")
     items.append(f"'fingers_spread {hand} {number(spread)}")

@@ -14,7 +14,7 @@ from azee.lexicon.sizes import (
     HEIGHT_M,
     OFF_FACE_M,
 )
-from azee.lexicon.vectors import ZERO, Vector, mirrored, plus, times
+from azee.lexicon.vectors import ZERO, Vector, is_close, mirrored, plus, times
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,9 +57,14 @@ class Place:
         return not self.sites
 
     @property
-    def is_at_trunk(self) -> bool:
-        """Whether it is at the trunk, whose surface is broad and round."""
-        return bool(self.sites) and all(s.name in TRUNK_SITES for s in self.sites)
+    def is_on_skin(self) -> bool:
+        """Whether the point is on the skin: at a site, or between two that are not on a hand.
+
+        A contact between two sites of trunk, neck and head is where the skin is nearest.
+        """
+        if not self.sites or not is_close(self.offset, ZERO, _LEAST_M):
+            return False
+        return len(self.sites) == 1 or not self.is_at_hand
 
     @property
     def is_at_hand(self) -> bool:
@@ -86,7 +91,8 @@ class Place:
         return replace(self, sites=sites, offset=mirrored(self.offset))
 
 
-TRUNK_SITES = frozenset(("ST", "ABST", "AB"))
+_LEAST_M = 0.0005
+"""Places that are nearer to each other are the same."""
 HAND_SITES = words(
     "PA H_BACK H_EDGE WR WRi WRt T_BALL I_TIP M_TIP R_TIP L_TIP T_TIP I_PAD M_PAD R_PAD L_PAD T_PAD"
     " I_NA M_NA R_NA L_NA T_NA F_ARM F_ARMi EL ELi ARM"

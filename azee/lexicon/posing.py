@@ -80,7 +80,7 @@ class Posing:
         if part is None:
             return usual_site(hand.shape, name, touches=touches)
         self._tell_digits(part)
-        return site_of(part, name, hand.pointing, hand.facing)
+        return site_of(part, name, hand.pointing, hand.facing, hand.shape)
 
     def _tell_digits(self, part: HandPart) -> None:
         if len(part.digits) > 1:
@@ -90,13 +90,13 @@ class Posing:
         """Return hands of which one is at a part of the other."""
         base = hands[other(name)]
         self._tell_digits(where.at)
-        first = site_of(where.at, other(name), base.pointing, base.facing)
+        first = site_of(where.at, other(name), base.pointing, base.facing, base.shape)
         sites: tuple[Site, ...] = (first,)
         if where.second is not None:
             part = where.second
             if part.part is None:
                 part = replace(part, part=where.at.part)
-            between = site_of(part, other(name), base.pointing, base.facing)
+            between = site_of(part, other(name), base.pointing, base.facing, base.shape)
             sites = (first, between) if between != first else sites
         touches = where.contact != "close"
         own = self._own(where.own, name, hands[name], touches=True)
@@ -136,10 +136,10 @@ class Posing:
 
     def _sites(self, where: OnHand, name: str, hand: Hand) -> tuple[Site, ...]:
         self._tell_digits(where.at)
-        first = site_of(where.at, name, hand.pointing, hand.facing)
+        first = site_of(where.at, name, hand.pointing, hand.facing, hand.shape)
         if where.second is None:
             return (first,)
-        second = site_of(where.second, name, hand.pointing, hand.facing)
+        second = site_of(where.second, name, hand.pointing, hand.facing, hand.shape)
         return (first,) if second == first else (first, second)
 
     def _facing(self, where: Constellation, hands: Hands, middle: Place) -> Hands:

@@ -18,11 +18,16 @@ from azee_solver.constraint import (
     Transpath,
     Trill,
 )
-from azee_solver.geometry import Bone, Side, Site, depends_on
+from azee_solver.geometry import Between, Bone, Side, Site, SitePoint, depends_on
 from azee_solver.notation import part_text, subject_text
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from azee_rig.rig import BoneNodes, Rig, RigSite
+
+    Array = NDArray[np.float64]
 
 
 TOUCHING = ("fingers_together", "fingers_crossed")
@@ -69,6 +74,20 @@ class Binding:
             return self.rig.sites[key]
         except KeyError:
             raise BindingError("rig-lacks-site", key, part_text(site)) from None
+
+    def skin_between(self, point: Between) -> tuple[int, Array] | None:
+        """Return the point of the skin that is nearest to one between two sites, if that is meant.
+
+        A node and the place in its frame, (3,) metres. None: it is not meant, or the sites are not
+        on trunk, neck or head. Raises BindingError.
+        """
+        start, end = point.start, point.end
+        if not (point.on_skin and isinstance(start, SitePoint) and isinstance(end, SitePoint)):
+            return None
+        names = self.site(start.site).name, self.site(end.site).name
+        from azee_solver.sliding import skin_between
+
+        return skin_between(self.rig, *names, point.fraction)
 
     def is_skeletal(self, morph: Morph) -> bool:
         """Whether a morph moves joints, not the face. Raises BindingError."""

@@ -75,6 +75,20 @@ class Body:
         )
         return replace(self, reference=reference, presets={}, options=options, evaluations=0)
 
+    def bounds(self) -> tuple[Array, Array] | None:
+        """Return the limits of all coordinates, (V,) each; fingers yield no farther than told.
+
+        None: those of the rig.
+        """
+        if not self.yielding:
+            return self.limits
+        coordinates = self.rig.coordinates
+        lower, upper = map(np.array, self.limits or (coordinates.lower, coordinates.upper))
+        for v, bound in self.yielding.items():
+            shape = min(max(self.presets[v], lower[v]), upper[v])
+            lower[v], upper[v] = max(lower[v], shape - bound), min(upper[v], shape + bound)
+        return lower, upper
+
     def cost(self, *, gazes: bool) -> Cost:
         """Posture and joint-limit cost: presets hold like constraints, led eyes turn first."""
         if gazes not in self._weights:

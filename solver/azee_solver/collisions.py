@@ -19,6 +19,7 @@ from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Place
 from azee_solver.geometry import Site, SitePoint, WorldPoint, sites_of
 from azee_solver.kinematics import Parting
+from azee_solver.sliding import UPRIGHT
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
@@ -32,8 +33,12 @@ BENT = 0.9
 """Of their upper limits, joints that are bent."""
 MARGIN_M = 0.004
 """Capsules hold most of the skin, not all: arms and hands are kept so far from trunk and head."""
+BROAD = (*UPRIGHT, "clav", "arm", "f_arm")
+"""Bones that all fingers of a hand lie on where one of them touches."""
+FINGERS = ("thumb", "index", "middle", "ring", "little")
 BESIDE_M, FAR_M = 0.04, 0.1
-"""Capsules beyond a palm take part wholly up to the one distance and not at all from the other."""
+"""Capsules of a hand that touches take part wholly up to the one distance and not at all from the
+other."""
 SLACK_M, CALLED_SLACK_M, PALM_SLACK_M = 0.001, 0.002, 0.009
 """Overlap that is forgiven where a site is placed on a site; where the text calls that a contact;
 and where one of them is a palm, which is hollow and soft: its edges stand out around what it
@@ -191,11 +196,14 @@ def _meant(constraints: Iterable[Constraint]) -> Iterator[tuple[Site, Site, bool
 
 
 def _contact(rig: Rig, anatomy: Anatomy, one: str, other: str, *, called: bool) -> Contact:
-    palms = [called and rig.sites[name].bone.startswith("palm") for name in (one, other)]
+    bones = [rig.sites[name].bone for name in (one, other)]
+    palms = [called and bone.startswith("palm") for bone in bones]
     slack = PALM_SLACK_M if any(palms) else CALLED_SLACK_M if called else SLACK_M
+    at_body = called and any(name.startswith("WR") for name in (one, other))
+    at_body |= called and any(bone.startswith(BROAD) for bone in bones)
     first, second = (
-        _around(rig, name, anatomy, wide=palm)
-        for name, palm in zip((one, other), palms, strict=True)
+        _around(rig, name, anatomy, wide=palm or (at_body and bone.startswith(FINGERS)))
+        for name, bone, palm in zip((one, other), bones, palms, strict=True)
     )
     return Contact(first, second, slack)
 
@@ -205,9 +213,10 @@ def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> Surrounding
     """Find the capsules that take part in contacts of a site, and how far they stand out there.
 
     Those of the site's own bone, and near ones of its neighbours; a site of a joint, such as an
-    elbow, has the bones on both sides as neighbours. Wide: also those of all bones beyond, such as
-    the fingers of a palm, the farther the less. Which are near is told at the zero pose; how far
-    they stand out is the most of that, idle and joints bent: a bent elbow is flatter.
+    elbow, has the bones on both sides as neighbours. Wide: also those of the whole hand, the
+    farther the less: where a trunk stands out around what is touched it does so for all fingers.
+    Which are near is told at the zero pose; how far they stand out is the most of that, idle and
+    joints bent: a bent elbow is flatter.
     """
     site, capsules, parents = rig.sites[name], rig.capsules, rig.chain.parents
     if site.node < 0:
@@ -233,10 +242,18 @@ def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> Surrounding
     np.maximum.at(out, capsules.node[near], np.max([depth, *bent], axis=0)[near])
     share = near.astype(np.float64)
     if wide:
-        beyond = anatomy.paths[capsules.node, site.node]
+        base = _palm(rig, site.bone) if site.bone.startswith(FINGERS) else site.node
+        beyond = anatomy.paths[capsules.node, base]
         fading = np.clip((FAR_M + depth) / (FAR_M - BESIDE_M), 0.0, 1.0)
         share = np.maximum(share, np.where(beyond, fading, 0.0))
-    return Surroundings(share, np.where(near, out[capsules.node], out.max()))
+    others = out.max() if site.bone.startswith("palm") else 0.0
+    return Surroundings(share, np.where(near, out[capsules.node], others))
+
+
+def _palm(rig: Rig, bone: str) -> int:
+    """Return the node of the palm of the hand that a finger's bone belongs to."""
+    side = bone.split("_")[1]
+    return rig.bones[f"palm_{side}"].node
 
 
 @lru_cache(maxsize=4)

@@ -167,6 +167,10 @@ class Evaluator:
                 moved = self.scale * self.vector(vector, frames, phase)
                 return self.point(point, frames, phase) + moved
             case Between(start, end, fraction):
+                if (found := self.binding.skin_between(expr)) is not None:
+                    node, local = found
+                    turned = frames.rotations[..., node, :, :] @ local
+                    return np.asarray(frames.positions[..., node, :] + turned)
                 return paths.straight(
                     self.point(start, frames, phase), self.point(end, frames, phase), fraction
                 )

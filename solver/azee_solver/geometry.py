@@ -245,11 +245,16 @@ class VTranslate:
 
 @dataclass(frozen=True, slots=True)
 class Between:
-    """`between P Q t`; `midpoint P Q` is t = .5."""
+    """`between P Q t`; `midpoint P Q` is t = .5.
+
+    on_skin: whether the nearest point of the skin is meant, as where a contact is between two
+    sites. Only trunk, neck and head have such points.
+    """
 
     start: Point
     end: Point
     fraction: float
+    on_skin: bool = False
 
 
 @dataclass(frozen=True, slots=True)

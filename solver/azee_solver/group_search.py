@@ -140,7 +140,7 @@ class GroupSearch:
         gazes = any(isinstance(task.constraint, Look | LookAt) for task in tasks.values())
         cost = body.cost(gazes=gazes)
         self.program = Program(
-            body.rig, q, sorted(free), tape, rows, self.collisions, cost, limits=body.limits
+            body.rig, q, sorted(free), tape, rows, self.collisions, cost, limits=body.bounds()
         )
 
     def search(self, candidates: Iterable[Array], further: bool) -> Result:

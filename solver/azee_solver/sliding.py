@@ -21,6 +21,10 @@ REACH_M = 0.02
 """Skin farther outside a part's capsules than this is not its own: sleeves and hems stand off."""
 
 
+UPRIGHT = ("back_1", "back_2", "neck", "head")
+"""Bones that carry each other, in order, and whose skins hardly move against each other."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class PartSkin:
     """The skin of a bone, fixed in its frame as in the mesh's own posture.
@@ -84,6 +88,35 @@ def skin_of(rig: Rig, bone: BoneNodes) -> PartSkin:
     used, rows = np.unique(triangles, return_inverse=True)
     local = (vertices[used] - frames.positions[bone.node]) @ frames.rotations[bone.node]
     return PartSkin(bone.node, local, rows.reshape(-1, 3))
+
+
+@lru_cache(maxsize=256)
+def skin_between(rig: Rig, one: str, other: str, fraction: float) -> tuple[int, Array] | None:
+    """Return the point of the skin of trunk, neck and head nearest to one between two sites.
+
+    It rides on the bone whose skin it is: the two that carry the sites, or one of those between.
+
+    Returns: a node and the place in its frame, (3,) metres; None if a site is on another part.
+    """
+    sites = rig.sites[one], rig.sites[other]
+    line = [name for name in UPRIGHT if name in rig.bones]
+    if any(site.bone not in line for site in sites):
+        return None
+    frames = rig.chain.frames(np.asarray(rig.coordinates.bind))
+    start, end = (site.point(frames) for site in sites)
+    middle = start + fraction * (end - start)
+    low, high = sorted(line.index(site.bone) for site in sites)
+    found: list[tuple[float, int, Array]] = []
+    for name in line[low : high + 1]:
+        skin = skin_of(rig, rig.bones[name])
+        if len(skin.triangles):
+            R, o = frames.rotations[skin.node], frames.positions[skin.node]
+            on = nearest(skin.vertices, skin.triangles, ((middle - o) @ R)[None])
+            found.append((float(on.distances[0]), skin.node, on.points[0]))
+    if not found:
+        return None
+    _, node, local = min(found, key=lambda entry: entry[0])
+    return node, local
 
 
 def _in_line(parents: NDArray[np.int64], one: int, other: int) -> bool:

@@ -249,6 +249,8 @@ class Tape:
                 moved = self.vector(vector, phase)
                 return self.combine(self.point(point, phase), 1.0, moved, scale)
             case Between(start, end, fraction):
+                if (found := self.binding.skin_between(expr)) is not None:
+                    return self.node_point(*found)
                 return self.combine(
                     self.point(start, phase), 1.0 - fraction, self.point(end, phase), fraction
                 )

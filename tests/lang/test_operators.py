@@ -184,6 +184,7 @@ def test_bones_and_sites_take_side_and_phalanx(expression: str, expected: object
             "shift @I_TIP(s) ^up 'from 'A 'within .1",
             Place(TIP, VTranslate(Was("A", SitePoint(TIP)), UP), within_m=0.1),
         ),
+        ("morph 'index_bend s 1 'soft 0", Morph("index_bend", Side.STRONG, 1.0)),
         ("morph 'index_bend s 1 'soft", Morph("index_bend", Side.STRONG, 1.0, math.radians(40))),
         (
             "morph 'index_bend s 1 'soft 90",

@@ -43,7 +43,7 @@ def test_a_touch_between_two_sites_is_a_contact() -> None:
         f'<sign_manual>{POINTING_UP}<location_bodyarm location="chin" second_location="lips"'
         ' contact="touch"/></sign_manual>'
     )
-    assert "midpoint(@CH, @MO) 'contact 'within .003" in text
+    assert "midpoint(@CH, @MO) 'contact\n" in text
 
 
 def test_a_touch_beside_a_part_of_the_face_is_on_the_skin() -> None:
@@ -149,3 +149,26 @@ def test_the_ball_of_the_thumb_is_a_site_of_its_own() -> None:
 
 def test_below_the_chin_is_a_site_of_its_own() -> None:
     assert body_place(OnBody("underchin", contact="touch")) == Place((Site("CHu"),), touches=True)
+
+
+def test_fingers_that_touch_yield_within_what_notations_distinguish() -> None:
+    touching = '<location_bodyarm location="chin" contact="touch"/>'
+    assert ":#hamflathand('yield = 20)" in _rule(
+        f"<sign_manual>{POINTING_UP}{touching}</sign_manual>"
+    )
+    out = POINTING_UP.replace("/>", ' thumbpos="out"/>')
+    text = _rule(f"<sign_manual>{out}{touching}</sign_manual>")
+    assert ":#hamflathand('yield = 20, 'thumb = .thumb-out('yield = 20))" in text
+    close = touching.replace("touch", "close")
+    assert "'yield" not in _rule(f"<sign_manual>{POINTING_UP}{close}</sign_manual>")
+
+
+def test_a_thumb_along_the_index_is_the_side_of_its_hand() -> None:
+    def placed(thumb: str) -> str:
+        hand = POINTING_UP.replace("/>", f"{thumb}/>")
+        side = '<location_hand location="thumbside"/>'
+        place = f'<location_bodyarm location="shoulders" contact="touch">{side}</location_bodyarm>'
+        return _rule(f"<sign_manual>{hand}{place}</sign_manual>")
+
+    assert "place @T_BACK(s, 2) @ST 'contact" in placed("")
+    assert "place @I_KNt(s, 1) @ST 'contact" in placed(' thumbpos="out"')

@@ -252,6 +252,21 @@ def test_a_contact_between_sites_is_one_with_each_of_them() -> None:
     np.testing.assert_array_equal(uncalled.reach, plain.reach)
 
 
+def test_other_fingers_of_a_hand_lie_on_the_trunk_that_one_touches(signer: Rig) -> None:
+    def reach(other: Site) -> dict[tuple[str, str], float]:
+        body = anatomy(signer.chain, signer.coordinates)
+        place = Place(Site("M_PAD", S), SitePoint(other), contact=True)
+        these = Obstacles(Binding(signer, Side.RIGHT), body, [place])
+        names = signer.capsules.names
+        return {(names[i], names[j]): r for (i, j), r in zip(these.pairs, these.reach, strict=True)}
+
+    chest, tip = reach(Site("ST")), reach(Site("M_PAD", W))
+    lower = {pair for pair in chest if chest[pair] < tip[pair] - 0.005}
+    fingers = {name for pair in lower for name in pair if name.startswith(("index_R", "ring_R"))}
+    assert {"index_R_3", "ring_R_3"} <= fingers
+    assert all(any(name.startswith("trunk") for name in pair) for pair in lower)
+
+
 def test_overlaps_are_reported_deepest_first() -> None:
     q = np.array(RIG.coordinates.idle)
     q[RIG.coordinates.index["f_arm_R.flexion"]] = np.radians(120)

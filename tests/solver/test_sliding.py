@@ -12,7 +12,18 @@ from azee_rig.rig import Rig
 from azee_solver.constraint import Place
 from azee_solver.evaluate import Evaluator, evaluator
 from azee_solver.footprint import footprint
-from azee_solver.geometry import Bone, Circle, Moving, Side, Site, SitePoint, Slide, Straight, Vec
+from azee_solver.geometry import (
+    Between,
+    Bone,
+    Circle,
+    Moving,
+    Side,
+    Site,
+    SitePoint,
+    Slide,
+    Straight,
+    Vec,
+)
 from azee_solver.winding import distances
 
 W = Side.WEAK
@@ -76,3 +87,32 @@ def test_it_reads_the_part_that_it_lies_on(signer: Rig) -> None:
     place = Place(Site("I_TIP", Side.STRONG), Moving(FOREARM, SitePoint(ELBOW), SitePoint(WRIST)))
     found = footprint(place, measure.binding)
     assert signer.bones["f_arm_L"].node in found.target
+
+
+@pytest.mark.parametrize(
+    ("one", "other"), [("ST", "ST_R"), ("CK_L", "MO"), ("ABST", "ST"), ("LOBE_L", "ST_L")]
+)
+def test_a_contact_between_two_sites_is_on_the_skin(signer: Rig, one: str, other: str) -> None:
+    measure, q = evaluator(signer, Side.RIGHT), np.array(signer.coordinates.idle)
+    frames = signer.chain.frames(q)
+    start, end = (SitePoint(_named(name)) for name in (one, other))
+    on = measure.point(Between(start, end, 0.5, on_skin=True), frames)
+    assert skin_distance(signer, q, on[None]).max() < 0.003
+    plain = measure.point(Between(start, end, 0.5), frames)
+    nearest = skin_distance(signer, q, plain[None]).max()
+    assert np.linalg.norm(on - plain) == pytest.approx(nearest, abs=0.004)
+
+
+def test_between_sites_of_a_hand_no_skin_is_meant(signer: Rig) -> None:
+    measure = evaluator(signer, Side.RIGHT)
+    frames = signer.chain.frames(np.array(signer.coordinates.idle))
+    start, end = (SitePoint(Site(name, W)) for name in ("M_TIP", "R_TIP"))
+    on, plain = (
+        measure.point(Between(start, end, 0.5, on_skin=skin), frames) for skin in (True, False)
+    )
+    np.testing.assert_array_equal(on, plain)
+
+
+def _named(name: str) -> Site:
+    base, _, side = name.partition("_")
+    return Site(base, {"L": Side.LEFT, "R": Side.RIGHT}[side] if side else None)

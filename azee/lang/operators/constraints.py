@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Any
 
 from azee.lang.conflict import orient_conflict
@@ -30,6 +31,7 @@ from azee_solver.constraint import (
     Trill,
 )
 from azee_solver.geometry import (
+    Between,
     Bone,
     Path,
     Point,
@@ -54,6 +56,8 @@ def _place(
 ) -> Constraints:
     if within < 0:
         raise at.fault("number-range", "`'within` is a length: 0 or more metres", "bound")
+    if contact and isinstance(point, Between):
+        point = replace(point, on_skin=True)
     return (Place(site, point, dist, contact, within, origin=at.origin),)
 
 
@@ -222,7 +226,8 @@ OPERATORS = (
         "place",
         "The site lies at the point. `'dist` is metres along the outward normal of a target site, "
         "in any direction from another point; `'contact` lets the surfaces touch, at a point "
-        "between sites those about each of them.",
+        "between sites those about each of them. Between two sites of trunk, neck and head, the skin "
+        "that is nearest is touched.",
         (_SITE, _POINT),
         _place,
         "place @I_TIP(s) @CH 'dist .02",

@@ -52,6 +52,8 @@ COMFORT = 0.1
 """Share of the joint-limit cost: it leads steps along limits instead of against them."""
 PRESET_PLAY_RAD = math.radians(0.4)
 """How far fingers may be from the angles of their handshape, inside the tolerance."""
+YIELD_SHARE = 0.1
+"""Fingers that yield keep so near to what key postures decided, as a share of their bounds."""
 _SOMEWHERE = np.array([0.123456, 1.0, 0.5])
 """Stands for the target of a path until it is filled in; metres."""
 
@@ -93,6 +95,8 @@ class FrameProblems:
                 target[of_shape] = np.clip(
                     near, coordinates.lower[members], coordinates.upper[members]
                 )
+            for v, bound in problem.yielding.items():
+                keep[rows, v] = np.maximum(keep[rows, v], (YIELD_SHARE * bound) ** -2)
             moving += self._paths(problem, rows, times)
             moving += self._moving_targets(problem, rows, times, reference.q)
         smooth = free_keep * (SMOOTH_S * fps) ** (2 * ORDER)
@@ -158,7 +162,8 @@ class FrameProblems:
         idle = rig.coordinates.idle
         asked = [t.constraint for t in now.tasks]
         presets = evaluator.binding.presets(asked)
-        for v in evaluator.binding.yielding(asked):
+        yielding = evaluator.binding.yielding(asked)
+        for v in yielding:
             del presets[v]  # key postures have decided how far it yields
         on_paths = [path.ik_task(_SOMEWHERE).constraint for path in now.paths]
         touches = (*now.touches, *on_paths)
@@ -181,7 +186,7 @@ class FrameProblems:
             _farther(rig, body.obstacles.for_problem(free, frozenset())),
             Cost(np.array(idle), nothing, comfort, self.options.overlap),
         )
-        return _Problem(now, tasks, residuals.runs, presets, program)
+        return _Problem(now, tasks, residuals.runs, presets, yielding, program)
 
     def _free(self, now: _InForce, presets: Mapping[int, float]) -> frozenset[int]:
         """Return the coordinates that terms of a frame hang on.
@@ -327,12 +332,14 @@ class _Problem:
     """A program with what it was made for.
 
     tasks: what it asks, by index. runs: rows of each. presets: angles of handshapes, by coordinate.
+    yielding: by how far other coordinates of handshapes may yield, radians.
     """
 
     now: _InForce
     tasks: Mapping[int, Task]
     runs: Mapping[int, tuple[int, int]]
     presets: Mapping[int, float]
+    yielding: Mapping[int, float]
     program: Program
 
 

@@ -30,6 +30,7 @@ MODULES = {
     "spelled-pairs": "benchmarks.spelled_pairs",
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
+    "batch": "benchmarks.batch",
     "capture": "benchmarks.capture",
     "studio": "benchmarks.studio",
     "solver": "benchmarks.solver_bench",

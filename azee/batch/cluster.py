@@ -16,8 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from azee.batch.local import given_up
-from azee.batch.record import Record
+from azee.batch.record import Record, failure, passing
 from azee.batch.task import Task
 from azee.batch.version import installed_version
 from azee_grammar.diagnostic import AZeeError, Diagnostic
@@ -75,7 +74,7 @@ class ClusterWorkers:
             if error is None:
                 yield task, future.result()
             else:
-                yield task, given_up(task, f"{type(error).__name__}: {error}")
+                yield task, passing(task, [failure(f"{type(error).__name__}: {error}")])
             for task in islice(coming, 1):
                 another = self._submitted(task)
                 doing[another] = task

@@ -20,10 +20,8 @@ from multiprocessing.context import SpawnProcess
 from pathlib import Path
 from types import TracebackType
 
-from azee.batch.record import Record
+from azee.batch.record import Record, failure, passing
 from azee.batch.task import Task
-from azee_grammar.diagnostic import Diagnostic
-from azee_grammar.render import to_json
 
 TRIES = 2
 STOP_S = 5.0
@@ -89,6 +87,11 @@ class LocalWorkers:
             worker.pipe.close()
         self._workers.clear()
 
+    @property
+    def process_ids(self) -> list[int]:
+        """Numbers of the workers' processes, in the order in which they were started."""
+        return [worker.process.pid or 0 for worker in self._workers]
+
     def do(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Record]]:
         """Yield tasks with their records, as they get done."""
         coming = iter(tasks)
@@ -112,7 +115,7 @@ class LocalWorkers:
                     if tries[task.key] < TRIES:
                         again.append(task)
                         continue
-                    record = given_up(task, f"{TRIES} workers died of it")
+                    record = passing(task, [failure(f"{TRIES} workers died of it")])
                 yield task, record
 
     def _hand_out(self, again: deque[Task], coming: Iterator[Task]) -> None:
@@ -132,12 +135,6 @@ class LocalWorkers:
         worker.process.join()
         worker.pipe.close()
         self._workers.remove(worker)
-
-
-def given_up(task: Task, why: str) -> Record:
-    """Return the record of a task that nobody could do; the next run tries again."""
-    found = Diagnostic("cannot-compile", f"`{task.title}` is given up: {why}", None)
-    return {"key": task.key, "error": [to_json(found)], "passing": True}
 
 
 @contextmanager

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +46,19 @@ def keep_record(out: Path, task: Task, record: Record) -> None:
 def files_of(record: Mapping[str, Any]) -> list[str]:
     """Return the files of a record, relative to the folder of outputs."""
     return sorted({name for row in record.get("rows", ()) for name in row["files"].values()})
+
+
+def passing(task: Task, errors: list[dict[str, Any]]) -> Record:
+    """Return the record of a task that failed for another reason than its text.
+
+    It is in the manifest, and not kept: the next run tries again.
+    """
+    return {"key": task.key, "error": errors, "passing": True}
+
+
+def failure(message: str, notes: Sequence[str] = ()) -> dict[str, Any]:
+    """Return, in the form of a diagnostic, why a task was not done."""
+    return {"code": "failed", "severity": "error", "message": message, "notes": [*notes]}
 
 
 def rows_of(task: Task, record: Mapping[str, Any]) -> Iterator[dict[str, Any]]:

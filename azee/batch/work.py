@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from azee.animation import default_solver
-from azee.batch.record import Record, keep_record, kept_record, record_path
+from azee.batch.record import Record, failure, keep_record, kept_record, passing, record_path
 from azee.batch.task import Task, body_of
 from azee.batch.variation import Variation, varied
 from azee.batch.version import installed_version
@@ -40,13 +40,13 @@ def work(task: Task, out: Path) -> Record:
     try:
         return kept_record(out, task) or _done(task, out)
     except AZeeError as error:
-        return _passing(task, [to_json(d) for d in error.diagnostics])
+        return passing(task, [to_json(d) for d in error.diagnostics])
     except (OSError, RigError) as error:
-        return _passing(task, [_message(f"cannot do `{task.title}`: {error}")])
+        return passing(task, [failure(str(error))])
     except Exception as error:
         # A fault of ours: one text never stops the others. The manifest has what is to be reported.
-        told = _message(f"azee failed: {type(error).__name__}: {error}")
-        return _passing(task, [{**told, "notes": traceback.format_exc().splitlines()}])
+        told = f"azee failed: {type(error).__name__}: {error}"
+        return passing(task, [failure(told, traceback.format_exc().splitlines())])
 
 
 def _done(task: Task, out: Path) -> Record:
@@ -212,14 +212,6 @@ def _require_same(task: Task) -> None:
     if body_of(task.body.place).digest != task.body.digest:
         message = f"the body `{task.body.place}` of a worker is not that of the batch"
         raise AZeeError(Diagnostic("cannot-read", message, None))
-
-
-def _message(text: str) -> dict[str, Any]:
-    return to_json(Diagnostic("cannot-compile", text, None))
-
-
-def _passing(task: Task, errors: list[dict[str, Any]]) -> Record:
-    return {"key": task.key, "error": errors, "passing": True}
 
 
 def prepare() -> None:

@@ -9,6 +9,7 @@ kept, and the next run goes on from there.
 from __future__ import annotations
 
 import logging
+import re
 import threading
 from collections.abc import Iterable, Iterator
 from itertools import islice
@@ -21,6 +22,8 @@ from azee.batch.task import Task
 from azee.batch.version import installed_version
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
+ADDRESS = re.compile(r"((tcp|tls)://)?([\w.-]+|\[[\da-fA-F:.%\w]+\]):\d{1,5}")
+"""Dask waits for ever where it knows no such protocol."""
 CONNECT_S = 10
 WAITING = 4
 """Tasks that are handed to the scheduler for each worker: one is done, the others wait."""
@@ -125,11 +128,14 @@ def _connected(address: str) -> Any:
             )
         ) from error
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    help_ = "an address is such as tcp://10.0.0.1:8786; `dask scheduler` prints its own"
+    if not ADDRESS.fullmatch(address):
+        message = f"`{address}` is no address of a Dask scheduler"
+        raise AZeeError(_no_cluster(message, help_))
     try:
         return Client(address, timeout=CONNECT_S, set_as_default=False)
     except (OSError, ValueError) as error:
         message = f"there is no Dask scheduler at {address}"
-        help_ = "an address is such as tcp://10.0.0.1:8786; `dask scheduler` prints its own"
         raise AZeeError(_no_cluster(message, help_)) from error
 
 

@@ -92,7 +92,7 @@ def _seed(value: str) -> int | None:
     default="glb",
     show_default=True,
     callback=_listed(_format),
-    help=f"Of {', '.join(FORMATS)}.",
+    help=f"Of {' '.join(WRITERS)}, with or without the dot.",
 )
 @click.option(
     "--bodies",

@@ -49,9 +49,10 @@ def test_a_killed_worker_costs_its_task_only(
                     os.kill(self.process_ids[-1], signal.SIGKILL)
 
     out.mkdir()
-    with Killing(2, out) as workers:
+    workers = Killing(2, out)
+    with workers:
         summary = ran_by(workers, source, out)
-        assert workers.killed == 2
+    assert workers.killed == 2
     assert (summary.tasks, summary.done, summary.faulty) == (TEXTS, TEXTS, 1)
     assert clips(out) == expected
     assert [row["name"] for row in rows(out) if row["error"]] == [f"t{FAULTY}"]

@@ -133,7 +133,7 @@ def _connected(address: str) -> Any:
         message = f"`{address}` is no address of a Dask scheduler"
         raise AZeeError(_no_cluster(message, help_))
     try:
-        return Client(address, timeout=CONNECT_S, set_as_default=False)
+        return Client(address, timeout=CONNECT_S)
     except (OSError, ValueError) as error:
         message = f"there is no Dask scheduler at {address}"
         raise AZeeError(_no_cluster(message, help_)) from error

@@ -83,7 +83,7 @@ def test_a_local_cluster_of_two_writes_the_same_bytes(
     out = tmp_path / "out"
     out.mkdir()
     with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, host="127.0.0.1",
+        n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0", host="127.0.0.1",
         local_directory=str(tmp_path),
     ) as workers, ClusterWorkers(workers.scheduler_address, out) as hands:  # fmt: skip
         summary = ran_by(hands, source, out)
@@ -126,8 +126,9 @@ def test_worker_and_scheduler_are_killed_and_nothing_is_lost_or_done_twice(
 
 
 def test_a_scheduler_that_is_not_there_gets_one_message(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("azee.batch.cluster.CONNECT_S", 0.5)
     source = listed(tmp_path, 1)
     where = ["--scheduler", "tcp://127.0.0.1:9"]
     assert run(["batch", str(source), "-o", str(tmp_path / "out"), *where]) == 1

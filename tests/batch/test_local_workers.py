@@ -46,7 +46,7 @@ def test_a_killed_worker_costs_its_task_only(
                 yield done
                 if self.killed < 2:
                     self.killed += 1
-                    os.kill(self.process_ids[-1], signal.SIGKILL)
+                    os.kill(self.process_ids[0], signal.SIGKILL)
 
     out.mkdir()
     workers = Killing(2, out)

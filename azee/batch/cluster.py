@@ -12,6 +12,7 @@ import logging
 import re
 import threading
 from collections.abc import Iterable, Iterator
+from concurrent.futures import CancelledError
 from itertools import islice
 from pathlib import Path
 from types import TracebackType
@@ -71,17 +72,30 @@ class ClusterWorkers:
         completed = as_completed([*doing])
         for future in completed:
             task = doing.pop(future)
-            if future.cancelled() or future.status == "lost":
-                raise AZeeError(_no_cluster(f"the scheduler at {self._address} is gone"))
-            error = future.exception()
-            if error is None:
-                yield task, future.result()
-            else:
-                yield task, passing(task, [failure(f"{type(error).__name__}: {error}")])
+            yield task, self._record(task, future)
             for task in islice(coming, 1):
                 another = self._submitted(task)
                 doing[another] = task
                 completed.add(another)
+
+    def _record(self, task: Task, future: Any) -> Record:
+        """Return the record of a task, also of one that no worker survived.
+
+        Raises: AZeeError: no-cluster: the scheduler is gone, perhaps with the record on its way.
+        """
+        try:
+            error = future.exception()
+            if error is None and not future.cancelled():
+                record: Record = future.result()
+                return record
+        except (OSError, CancelledError) as lost:
+            raise AZeeError(self._gone()) from lost
+        if error is None or isinstance(error, CancelledError):
+            raise AZeeError(self._gone())
+        return passing(task, [failure(f"{type(error).__name__}: {error}")])
+
+    def _gone(self) -> Diagnostic:
+        return _no_cluster(f"the scheduler at {self._address} is gone")
 
     def _submitted(self, task: Task) -> Any:
         return self._client.submit(_work, task, str(self._out), key=f"azee-{task.key}")

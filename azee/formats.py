@@ -133,6 +133,14 @@ def _film(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
         write_film(animation.clip, rig, path, fps=animation.report.fps)
 
 
+def _film_from(clip: Clip, rig: Rig, path: Path, camera: str, fps: float) -> None:
+    from azee.export.pictures.film import write_film
+    from azee.export.pictures.scene import Look
+
+    with filming():
+        write_film(clip, rig, path, Look(shots=(camera,)), fps=fps)
+
+
 @contextmanager
 def filming() -> Iterator[None]:
     """Turn errors in filming into a diagnostic.
@@ -226,6 +234,7 @@ def save_score(
 ClipWriter: TypeAlias = "Callable[[Clip, Rig, Path], None]"
 ScoreWriter: TypeAlias = "Callable[[Score, Sequence[Row], ElanHeader, Path], None]"
 Writer: TypeAlias = "Callable[[Score, Rig, Animation, Path], None]"
+CameraWriter: TypeAlias = "Callable[[Clip, Rig, Path, str, float], None]"
 
 CLIP_WRITERS: dict[str, ClipWriter] = {
     ".glb": _glb,
@@ -263,3 +272,6 @@ CORPUS_SUFFIXES = (".csv", ".json", *CHART_SUFFIXES)
 LANDMARK_SUFFIXES = (".pose", ".csv", ".npz")
 """Suffixes of landmarks."""
 WRITERS |= dict.fromkeys(FILM_SUFFIXES, _film)
+CAMERA_WRITERS: dict[str, CameraWriter] = dict.fromkeys(FILM_SUFFIXES, _film_from)
+"""Formats of a clip that is seen from somewhere, by the name of a camera, with so many frames a
+second: of those in `WRITERS`, what `azee batch` writes for each camera."""

@@ -31,6 +31,7 @@ MODULES = {
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
     "formats": "benchmarks.formats",
+    "batch": "benchmarks.batch",
     "capture": "benchmarks.capture",
     "studio": "benchmarks.studio",
     "solver": "benchmarks.solver_bench",

@@ -16,6 +16,7 @@ from typing import NoReturn
 
 import click
 
+from azee.cli.batch import batch
 from azee.cli.blocks import blocks
 from azee.cli.capture import capture
 from azee.cli.check import check
@@ -56,6 +57,7 @@ def azee() -> None:
 
 
 azee.add_command(compile_)
+azee.add_command(batch)
 azee.add_command(check)
 azee.add_command(fmt)
 azee.add_command(blocks)

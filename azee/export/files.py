@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
+PART = ".part"
+"""Suffix of the hidden files."""
 _SHOWN = 40
 """Characters of a name that the hidden file repeats: a name as long as any may be stays legal."""
 
@@ -39,8 +41,7 @@ def replace_path(path: str | Path) -> Iterator[Path]:
     target = Path(path).resolve()
     if target.is_dir():
         raise IsADirectoryError(21, "it is a directory", str(path))
-    prefix = f".{target.name[:_SHOWN]}."
-    number, name = tempfile.mkstemp(prefix=prefix, suffix=".part", dir=target.parent)
+    number, name = tempfile.mkstemp(prefix=_prefix(target), suffix=PART, dir=target.parent)
     os.close(number)
     part = Path(name)
     try:
@@ -50,6 +51,21 @@ def replace_path(path: str | Path) -> Iterator[Path]:
     except BaseException:
         part.unlink(missing_ok=True)
         raise
+
+
+def remove_parts(path: str | Path) -> None:
+    """Remove what processes that were killed left of a file, where no other process writes it.
+
+    Raises: OSError.
+    """
+    target = Path(path).resolve()
+    for part in target.parent.glob(f".*{PART}"):
+        if part.name.startswith(_prefix(target)):
+            part.unlink(missing_ok=True)
+
+
+def _prefix(target: Path) -> str:
+    return f".{target.name[:_SHOWN]}."
 
 
 def _permissions(target: Path) -> int:

@@ -98,6 +98,20 @@ class Program:
             raise AZeeError(self._no_utterance(None, 0))
         return scores[0] if len(scores) == 1 else in_sequence(scores, BETWEEN_UTTERANCES_S)
 
+    def score_alone(self, utterance: int, dominant: Side = Side.RIGHT) -> Score:
+        """Return the score of one utterance, by its number; mistakes in others do not matter.
+
+        Raises: AZeeError: the mistakes in it and in all that it may use, or `no-utterance`.
+        """
+        items = [*self.utterance_items()]
+        if not 1 <= utterance <= len(items):
+            raise AZeeError(self._no_utterance(utterance, len(items)))
+        wanted = items[utterance - 1]
+        self._require_sound(self.check(dominant, sound=[x for x in items if x is not wanted]))
+        found, _ = self._judged(wanted)
+        assert found is not None, "nothing was reported, so there is a score"
+        return found.score
+
     def check(
         self, dominant: Side = Side.RIGHT, *, sound: Container[Item] = ()
     ) -> tuple[Diagnostic, ...]:

@@ -74,6 +74,7 @@ def test_a_test_names_a_file_of_every_format() -> None:
     ("command", "table"),
     [
         ("compile", "of a compilation"),
+        ("batch", "of a compilation"),
         ("score", "of a score"),
         ("render", "of pictures and films"),
         ("retarget", "of a clip"),

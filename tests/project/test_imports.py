@@ -33,6 +33,13 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.score.recorded_motion": {"azee.clip", "azee_rig"},
     "azee.score.articulators": {"azee_grammar"} | DECLARATIONS,
     "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
+    "azee.batch": {
+        *("azee.animation", "azee.clip", "azee.compilation", "azee.export.files", "azee.formats"),
+        *("azee.lang", "azee.motion", "azee.score"),
+        *("azee_grammar", "azee_rig", "azee_solver"),
+    },
+    "azee.batch.version": OURS,
+    "azee.batch.cluster": {"azee.batch", "azee_grammar", "distributed"},
     "azee.blocks": {"azee_grammar"},
     "azee.posing": {
         *("azee.blocks", "azee.compilation", "azee.lang", "azee.motion.tasks", "azee.score"),

@@ -15,6 +15,7 @@ HEAVY = (
     "PIL",
     "alembic",
     "c3d",
+    "distributed",
     "lark",
     "matplotlib",
     "pympi",
@@ -40,6 +41,7 @@ sys.exit(code)
 LOADS: dict[tuple[str, ...], set[str]] = {
     ("--help",): set(),
     ("compile", "--help"): set(),
+    ("batch", "--help"): set(),
     ("render", "--help"): set(),
     ("pose", "--help"): set(),
     ("blocks", "text.azee"): {"lark"},

@@ -226,8 +226,8 @@ OPERATORS = (
         "place",
         "The site lies at the point. `'dist` is metres along the outward normal of a target site, "
         "in any direction from another point; `'contact` lets the surfaces touch, at a point "
-        "between sites those about each of them. Between two sites of trunk, neck and head, the skin "
-        "that is nearest is touched.",
+        "between sites those about each of them. Between two sites of trunk, neck and head, the "
+        "skin that is nearest is touched.",
         (_SITE, _POINT),
         _place,
         "place @I_TIP(s) @CH 'dist .02",

@@ -11,6 +11,7 @@ from __future__ import annotations
 import logging
 import re
 import threading
+import time
 from collections.abc import Iterable, Iterator
 from concurrent.futures import CancelledError
 from itertools import islice
@@ -28,6 +29,8 @@ ADDRESS = re.compile(r"((tcp|tls)://)?([\w.-]+|\[[\da-fA-F:.%\w]+\]):\d{1,5}")
 CONNECT_S = 10
 WAITING = 4
 """Tasks that are handed to the scheduler for each worker: one is done, the others wait."""
+LOOK_S = 0.02
+"""Between looks whether a task is done, and whether the scheduler is there."""
 
 _ONE_AT_A_TIME = threading.Lock()
 
@@ -70,13 +73,19 @@ class ClusterWorkers:
         coming = iter(tasks)
         doing = {self._submitted(task): task for task in islice(coming, WAITING * self._count)}
         completed = as_completed([*doing])
-        for future in completed:
-            task = doing.pop(future)
-            yield task, self._record(task, future)
-            for task in islice(coming, 1):
-                another = self._submitted(task)
-                doing[another] = task
-                completed.add(another)
+        while doing:
+            done = completed.next_batch(block=False)
+            if not done:
+                if self._client.status != "running":
+                    raise AZeeError(self._gone())
+                time.sleep(LOOK_S)
+            for future in done:
+                task = doing.pop(future)
+                yield task, self._record(task, future)
+                for task in islice(coming, 1):
+                    another = self._submitted(task)
+                    doing[another] = task
+                    completed.add(another)
 
     def _record(self, task: Task, future: Any) -> Record:
         """Return the record of a task, also of one that no worker survived.

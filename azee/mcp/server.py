@@ -34,9 +34,9 @@ from azee_grammar.source import Source
 from azee_rig.load import load_rig, shipped_rigs
 
 INSTRUCTIONS = """\
-Write texts in AZee, a formal language of sign languages, and make a body sign them. Look rules up \
-with `rules`, never invent names; `check` a text and put the first of a diagnostic's `fixes` in the \
-marked place until nothing is reported; then `score`, `compile` or `render` it. What you make is a \
+Write texts in AZee, a formal language of sign languages, and make a body sign them. Look rules up
+with `rules`, never invent names. `check` a text and put the first of a diagnostic's `fixes` in the
+marked place until nothing is reported; then `score`, `compile` or `render` it. What you make is a
 draft that no deaf person has judged: say so."""
 
 PICTURE = (640, 672)
@@ -52,8 +52,10 @@ class Tools:
         self._one_at_a_time = Lock()
 
     def rules(self, search: str = "", name: str = "") -> dict[str, Any]:
-        """List rules with meaning, source, status and arguments: those that speak of `search`, \
-or the one of a name."""
+        """List rules with their meaning, source, status and arguments.
+
+        They are those that speak of `search`, or the one of a name; without either, all.
+        """
         plain = name.removeprefix(":")
         return {
             "rules": [
@@ -65,8 +67,11 @@ or the one of a name."""
         }
 
     def check(self, text: str) -> dict[str, Any]:
-        """Tell what is wrong with a text. `fixes` of a diagnostic are texts for the marked place: \
-lines and columns from 1, ends exclusive."""
+        """Tell what is wrong with a text.
+
+        The `fixes` of a diagnostic are texts for the marked place, the most probable first. Lines
+        and columns count from 1, ends are exclusive.
+        """
         try:
             found = self._program(text).check()
         except AZeeError as error:
@@ -79,8 +84,11 @@ lines and columns from 1, ends exclusive."""
             return tree(score_of(self._program(text), None, None))
 
     def compile(self, text: str, path: str, rig: str = "signer") -> dict[str, Any]:
-        """Write the movement of a text into a file in the server's folder; the suffix is the \
-format, such as .glb or .bvh. Tell how long it is and how well the body met the constraints."""
+        """Write the movement of a text into a file in the server's folder.
+
+        The suffix of the path is the format, such as .glb or .bvh. The answer tells how long the
+        movement is, and how well the body met the constraints.
+        """
         target = self._target(path)
         with _mistakes_told():
             made = self._made(text, rig)

@@ -19,10 +19,10 @@ from pathlib import Path, PurePosixPath
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
-import api
-import gallery
-import links
-from pages import LINK, ROOT, Pages
+import api  # noqa: E402 - beside this file
+import gallery  # noqa: E402
+import links  # noqa: E402
+from pages import LINK, ROOT, Pages  # noqa: E402
 
 FIRST = ROOT / "examples" / "not-but" / "not-but.azee"
 """The example that the first page plays."""

@@ -140,7 +140,7 @@ def test_a_client_starts_the_command(tmp_path: Path) -> None:
 
 
 def test_without_the_extra_the_command_says_how_to_get_it(python: Python) -> None:
-    script = "import sys; sys.modules['mcp'] = None; from azee.cli.main import run; sys.exit(run(['mcp']))"
-    done = python("-c", script, expect=1)
+    script = "import sys; sys.modules['mcp'] = None; from azee.cli.main import run; "
+    done = python("-c", f"{script}sys.exit(run(['mcp']))", expect=1)
     assert "pip install 'azee[mcp]'" in done.stderr
     assert "Traceback" not in done.stderr

@@ -11,26 +11,22 @@ PACKAGES = (
     "azee_grammar",
     "azee_rig",
     "azee_solver",
-    "azee.lang",
     "azee.score",
     "azee.clip",
-    "azee.motion",
     "azee.quality",
     "azee.export",
     "azee.signs",
-    "azee.lexicon",
-    "azee.spelling",
-    "azee.capture",
     "azee.corpus",
     "azee.blocks",
-    "azee.posing",
     "azee.assist",
-    "azee.player",
 )
-"""What programs may import. Commands, servers of pages and the prompt are not among them."""
+"""What programs import: data, and what reads, makes and writes it.
 
-INNER = ("kernels", "migrations")
-"""Packages inside of these that nobody calls: loops for numba, steps of a database."""
+How a text becomes a movement (`azee.lang`, `azee.motion`) and the tools are read in their sources.
+"""
+
+INNER = ("build", "importing", "kernels", "migrations")
+"""Packages inside of these that no program calls, such as loops for numba."""
 
 HEAD = """# Python API
 

@@ -112,8 +112,11 @@ def main() -> int:
     """Build the site."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "docs")
+    parser.add_argument("--only", metavar="NAME", nargs="*", help="names of examples to play")
     options = parser.parse_args()
-    if broken := build(options.out):
+    only = {FIRST.stem, *(options.only or [])}
+    chosen = [p for p in gallery.EXAMPLES if options.only is None or p.stem in only]
+    if broken := build(options.out, chosen):
         print("\n".join(broken), file=sys.stderr)
         return 1
     print(f"wrote {options.out}: python -m http.server -b 127.0.0.1 -d {options.out}")

@@ -31,7 +31,6 @@ html_show_copyright = False
 html_show_sphinx = False
 html_last_updated_fmt = None
 html_css_files = ["site.css"]
-html_js_files = [("../azee-player.js", {"type": "module"})]
 highlight_language = "none"
 # Options of code blocks, such as `error=syntax`, are for the tests that run the pages.
 myst_heading_anchors = 6

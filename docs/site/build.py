@@ -73,6 +73,7 @@ def write_documents(folder: Path, sources: Sequence[Path]) -> None:
     figures = "\n".join(
         gallery.figure(source, f"_static/clip/{source.stem}.azwc") for source in sources
     )
+    figures = figures.replace("\n\n", "\n&#10;")  # an empty line would end the HTML in Markdown
     pages.put(PurePosixPath("gallery"), GALLERY.format(figures=figures) + SCRIPT)
     index = folder / "index.md"
     text = index.read_text(encoding="utf-8")

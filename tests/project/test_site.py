@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+import json
+import math
 import os
 import subprocess
 import sys
@@ -11,6 +13,8 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 import pytest
+from programs import Node
+from served import web_server
 
 ROOT = Path(__file__).parents[2]
 SITE = ROOT / "docs" / "site"
@@ -101,24 +105,44 @@ def test_links_that_lead_nowhere_are_told(
     assert list(site("links").broken(tmp_path)) == told
 
 
-@pytest.mark.slow
-def test_the_site_is_built_without_a_warning_and_twice_the_same(tmp_path: Path) -> None:
-    """A part of the reference and one example; `make docs` builds the whole."""
-    digests = []
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Sequence[Path]:
+    """The site, built twice: a part of the reference and one example. `make docs` builds all."""
+    sites = []
     for seed in ("1", "2"):
-        out = tmp_path / seed / "site"
+        out = tmp_path_factory.mktemp("site") / "site"
         path = os.pathsep.join(p for p in sys.path if p)
         done = subprocess.run(
             [sys.executable, "-c", SCRIPT, str(SITE), str(out)],
             env=os.environ | {"PYTHONPATH": path, "PYTHONHASHSEED": seed},
             capture_output=True,
             encoding="utf-8",
+            check=False,
         )
         assert done.returncode == 0, done.stdout + done.stderr
-        files = sorted(p for p in out.rglob("*") if p.is_file())
-        digests.append(
-            {p.relative_to(out): hashlib.sha256(p.read_bytes()).hexdigest() for p in files}
-        )
-    assert digests[0] == digests[1]
-    first = (tmp_path / "1" / "site" / "index.html").read_text(encoding="utf-8")
-    assert '<azee-player class="first" src="_static/clip/not-but.azwc" autoplay' in first
+        sites.append(out)
+    return sites
+
+
+def _digests(folder: Path) -> dict[str, str]:
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    return {
+        path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in files
+    }
+
+
+@pytest.mark.slow
+def test_the_site_is_built_without_a_warning_and_twice_the_same(built: Sequence[Path]) -> None:
+    first, second = map(_digests, built)
+    assert first == second
+    assert {"index.html", "language/tutorial.html", "api/azee.clip.html"} <= set(first)
+
+
+@pytest.mark.slow
+def test_the_first_page_shows_a_moving_signer(browser: Node, built: Sequence[Path]) -> None:
+    with web_server(built[0]) as url:
+        seen = json.loads(browser("site_first_page.mjs", url))
+    assert (seen["complaints"], seen["foreign"]) == ([], [])
+    assert seen["hidden"]
+    assert math.dist(seen["before"], seen["after"]) > 0.02

@@ -41,8 +41,9 @@ def _called(folder: Path, tool: str, **arguments: object) -> CallToolResult:
 
 def _data(result: CallToolResult) -> Mapping[str, Any]:
     assert not result.is_error, result.content
-    assert result.structured_content is not None
-    return result.structured_content
+    data: Mapping[str, Any] | None = result.structured_content
+    assert data is not None
+    return data
 
 
 def _refusal(result: CallToolResult) -> str:

@@ -26,6 +26,7 @@ version = release
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 html_theme = "furo"
 html_title = f"azee {release}"
+html_favicon = "icon.svg"
 html_copy_source = False
 html_show_copyright = False
 html_show_sphinx = False

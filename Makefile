@@ -11,7 +11,7 @@ PACKAGES := $(patsubst %,%/node_modules/.package-lock.json,tests/node azee/web)
 TYPED := tests benchmarks examples
 FIXTURES := $(wildcard tests/*/conftest.py)
 
-.PHONY: web mutants families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
+.PHONY: docs package release-check wheel-test-oldest wheel-test-newest web mutants families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -100,6 +100,23 @@ families-table: $(READY) ## try three examples on bodies of many makers, into do
 
 wheel-test: $(READY) node ## run the fast tests against the built wheel, outside the checkout
 	@bash tests/project/wheel.sh $(RUN)
+
+wheel-test-oldest: $(READY) node ## the same with the oldest dependencies that are allowed
+	@bash tests/project/wheel.sh $(RUN) oldest
+
+wheel-test-newest: $(READY) node ## the same with the newest dependencies there are
+	@bash tests/project/wheel.sh $(RUN) newest
+
+docs: $(READY) ## build the site of the documentation into out/docs, and follow its links
+	@$(RUN) docs/site/build.py --out out/docs
+
+package: $(READY) ## build the wheel and the archive of sources into out/packages
+	@rm -rf out/packages
+	@$(RUN) -m build --no-isolation --outdir out/packages
+
+TAG ?=
+release-check: $(READY) ## tell whether the files agree on the version to release, and on TAG=v0.1.0
+	@$(RUN) packaging/release.py $(TAG)
 
 node: ## install the packages of the pages and of the tests that need Node, if it is there
 	@if command -v npm >/dev/null; then $(MAKE) --no-print-directory $(PACKAGES) || \

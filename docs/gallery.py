@@ -42,26 +42,36 @@ pre {{ overflow: auto; max-height: 9rem; background: #f3f5f7; padding: .6rem; fo
 <script type="module" src="azee-player.js"></script>
 """
 FIGURE = """<figure>
-<azee-player src="clip/{name}.azwc" speed="1" restrictview></azee-player>
+<azee-player src="{clip}" speed="1" restrictview></azee-player>
 <figcaption><h2>{name}</h2><pre tabindex="0">{text}</pre></figcaption>
 </figure>"""
 
 
 def build(folder: Path, sources: Sequence[Path] = EXAMPLES) -> None:
     """Write the page into a folder, which is made."""
+    folder.mkdir(parents=True, exist_ok=True)
+    write_players(folder, sources)
+    figures = "\n".join(figure(source, f"clip/{source.stem}.azwc") for source in sources)
+    with replace_file(folder / "index.html") as file:
+        file.write(PAGE.format(figures=figures).encode())
+
+
+def write_players(folder: Path, sources: Sequence[Path]) -> None:
+    """Write the script of the element, a body, and a clip for each example."""
     body = load_rig("signer")
     for name in ("body", "clip"):
-        (folder / name).mkdir(parents=True, exist_ok=True)
+        (folder / name).mkdir(exist_ok=True)
     for path in parts("azee-player.js"):
         shutil.copyfile(path, folder / path.name)
     write_body(body, folder / "body" / f"{body.name}.glb")
-    figures = []
     for source in sources:
         write_web_clip(azee.compile(source, body).clip, body, folder / f"clip/{source.stem}.azwc")
-        text = html.escape(source.read_text(encoding="utf-8").strip())
-        figures.append(FIGURE.format(name=html.escape(source.stem), text=text))
-    with replace_file(folder / "index.html") as file:
-        file.write(PAGE.format(figures="\n".join(figures)).encode())
+
+
+def figure(source: Path, clip: str) -> str:
+    """Return the player of an example over its text. clip: address of its clip."""
+    text = html.escape(source.read_text(encoding="utf-8").strip())
+    return FIGURE.format(name=html.escape(source.stem), clip=clip, text=text)
 
 
 def main() -> int:

@@ -1,4 +1,4 @@
-"""Pages that tests open: azee's servers in processes of their own, ended by their ids."""
+"""Pages that tests open: azee's servers in processes of their own, ended by their ids; folders."""
 
 from __future__ import annotations
 
@@ -7,6 +7,11 @@ import re
 import signal
 import subprocess
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from types import TracebackType
 
@@ -47,3 +52,20 @@ class Served:
             self._process.send_signal(number)
             return self.ended()
         return self._process.returncode, ""
+
+
+class _Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, *_: object) -> None:
+        """Say nothing."""
+
+
+@contextmanager
+def web_server(folder: Path) -> Iterator[str]:
+    """Serve a folder as any web server does."""
+    handler = partial(_Quiet, directory=str(folder))
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_port}/"
+        server.shutdown()
+        thread.join()

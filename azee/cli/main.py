@@ -33,6 +33,7 @@ from azee.cli.gloss import gloss
 from azee.cli.lexicon import lexicon
 from azee.cli.lsp import lsp
 from azee.cli.manifest import manifest
+from azee.cli.mcp import mcp
 from azee.cli.play import play
 from azee.cli.pose import pose
 from azee.cli.render import render
@@ -73,6 +74,7 @@ azee.add_command(corpus)
 azee.add_command(db)
 azee.add_command(elan)
 azee.add_command(lsp)
+azee.add_command(mcp)
 azee.add_command(rules)
 azee.add_command(manifest)
 azee.add_command(rig)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import shutil
 import textwrap
-import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -18,7 +17,6 @@ from azee_grammar.diagnostic import Diagnostic, Severity
 
 if TYPE_CHECKING:
     from azee.lang.rule import Rule
-    from azee.lang.scope import Namespace
     from azee_grammar.source import Span
 
 
@@ -70,12 +68,14 @@ def rules(
         raise click.UsageError("NAME shows one rule; --search and --status list some")
     _known_status(status)
     added, mistakes = _added(libraries)
-    known = {**_shipped(), **added}
+    from azee.lang.rule_table import rule_as_json, shipped_rules
+
+    known = {**shipped_rules(), **added}
     chosen = _of_status(_chosen(known, name, search), status)
     if not any(chosen.values()):
         mistakes = [_none(known, name, search, status), *mistakes]
     if form == "json":
-        found = [_as_json(rule) for rules in chosen.values() for rule in rules]
+        found = [rule_as_json(rule) for rules in chosen.values() for rule in rules]
         show_json({"diagnostics": as_json(mistakes), "rules": found})
     else:
         shown = {library: rules for library, rules in chosen.items() if rules}
@@ -95,13 +95,14 @@ def _chosen(
     known: Mapping[str, list[Rule]], name: str | None, search: str | None
 ) -> dict[str, list[Rule]]:
     """Return the rules of a name, or those that speak of something, by library."""
+    from azee.lang.rule_table import speaks_of
+
     plain = None if name is None else name.removeprefix(":")
-    wanted = "" if search is None else _plain(search)
     return {
         library: [
             rule
             for rule in found
-            if (wanted in _searched(rule) if plain is None else rule.name == plain)
+            if (speaks_of(rule, search or "") if plain is None else rule.name == plain)
         ]
         for library, found in known.items()
     }
@@ -132,18 +133,11 @@ def _none(
     return _unknown(name.removeprefix(":"), [r.name for found in known.values() for r in found])
 
 
-def _shipped() -> dict[str, list[Rule]]:
-    """Return the rules of every library that ships, by name."""
-    from azee.lang.library import shipped_library
-    from azee_grammar.library import shipped_names
-
-    return {library: _by_name(shipped_library(library).namespace) for library in shipped_names()}
-
-
 def _added(folders: Sequence[Path]) -> tuple[dict[str, list[Rule]], list[Diagnostic]]:
     """Return the rules without mistakes of the libraries in some folders, and all mistakes."""
     from azee.lang.library import names_in
     from azee.lang.program import load
+    from azee.lang.rule_table import by_name
     from azee_grammar.source import Source
 
     out: dict[str, list[Rule]] = {}
@@ -163,7 +157,7 @@ def _added(folders: Sequence[Path]) -> tuple[dict[str, list[Rule]], list[Diagnos
                     mistakes.setdefault((found.code, found.message, found.span), found)
             for used in program.librarian.libraries:
                 if used.namespace.name == library:
-                    out[library] = [rule for rule in _by_name(used.namespace) if _is_sound(rule)]
+                    out[library] = [rule for rule in by_name(used.namespace) if _is_sound(rule)]
     return out, list(mistakes.values())
 
 
@@ -171,21 +165,6 @@ def _is_sound(rule: Rule) -> bool:
     """Whether a rule that was resolved has a body without mistakes; warnings are none."""
     mistakes = any(found.severity is Severity.ERROR for found in rule.diagnostics)
     return rule.definition.body is not None and not mistakes
-
-
-def _by_name(namespace: Namespace) -> list[Rule]:
-    return sorted(namespace.rules.values(), key=lambda rule: rule.name)
-
-
-def _searched(rule: Rule) -> str:
-    entries = (rule.entry("meaning") or "", rule.entry("source") or "")
-    return _plain(" ".join((rule.name, *entries, *(name for name, _ in rule.parameters))))
-
-
-def _plain(text: str) -> str:
-    """Without case and accents, so that `age` finds `âge`."""
-    apart = unicodedata.normalize("NFKD", text.casefold())
-    return "".join(c for c in apart if not unicodedata.combining(c))
 
 
 def _listed(library: str, found: Sequence[Rule]) -> str:
@@ -208,27 +187,6 @@ def _shown(rule: Rule, libraries: Sequence[Path]) -> Iterator[str]:
             default = f"by default {' '.join(parameter.default.span.text.split())}"
         yield from _field("" if i else "arguments", f"'{parameter.name}  {default}")
     yield from _field("example", example_of(rule, libraries))
-
-
-def _as_json(rule: Rule) -> dict[str, Any]:
-    """Return a rule as docs/formats.md describes it."""
-    return {
-        "name": rule.name,
-        "library": rule.library,
-        "meaning": rule.entry("meaning"),
-        "source": rule.entry("source"),
-        "status": rule.entry("status"),
-        "arguments": [
-            {
-                "name": parameter.name,
-                "mandatory": parameter.default is None,
-                "default": None
-                if parameter.default is None
-                else " ".join(parameter.default.span.text.split()),
-            }
-            for parameter in rule.defaults
-        ],
-    }
 
 
 def _field(name: str, text: str) -> Sequence[str]:

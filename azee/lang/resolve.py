@@ -81,7 +81,7 @@ class Resolver:
     scope: Scope
     rule: str | None
     diagnostics: list[Diagnostic]
-    _helps: dict[str, str | None] = field(init=False, default_factory=dict)
+    _helps: dict[tuple[str, str], str | None] = field(init=False, default_factory=dict)
     """What names without a rule may mean: libraries have thousands to compare with."""
 
     def report(self, *diagnostics: Diagnostic) -> None:
@@ -229,13 +229,15 @@ class Resolver:
             return None
         if rule is None:
             message = f"there is no rule `:{name}`"
-            if name not in self._helps:
-                self._helps[name] = self._rule_help(name)
-            hint = self._helps[name]
+            sigil = span.text[: len(span.text) - len(span.text.lstrip(":.#"))]
+            if (name, sigil) not in self._helps:
+                self._helps[name, sigil] = self._rule_help(name, sigil)
+            hint = self._helps[name, sigil]
             self.report(Diagnostic("unknown-rule", message, span, "no such rule", help=hint))
         return rule
 
-    def _rule_help(self, name: str) -> str | None:
+    def _rule_help(self, name: str, sigil: str = ":") -> str | None:
+        """Return what a name without a rule may mean. sigil: what is written before it."""
         known = self.scope.names()
         words = name.split(" ")
         for k in range(len(words) - 1, 0, -1):
@@ -249,7 +251,7 @@ class Resolver:
         if dropped is not None and name in dropped.rules:
             library = dropped.name
             return f"`{library}` is out of scope because the text says `use`; add `use '{library}`"
-        hint = did_you_mean(name, known, ":")
+        hint = did_you_mean(name, known, sigil)
         if hint is None and name in NATIVES:
             return f"`{name}` is an operator: write it without `:`"
         return hint

@@ -246,7 +246,7 @@ class Mistakes:
             "syntax",
             "the name of a library begins with an apostrophe",
             self._span(token),
-            help=f"write `use '{name}`",
+            help=f"write `'{name}`",
         )
 
     def _in_definition(self, index: int, state: State) -> Diagnostic | None:

@@ -16,6 +16,7 @@ from typing import Any
 
 from azee_grammar.diagnostic import Diagnostic, Related, Severity
 from azee_grammar.excerpt import Excerpt, printable
+from azee_grammar.fixes import fixes
 from azee_grammar.source import Span
 
 CALLS_SHOWN = 8
@@ -43,7 +44,8 @@ def to_json(diagnostic: Diagnostic) -> dict[str, Any]:
     """Return a diagnostic as JSON data.
 
     Lines and columns count from 1, columns in code points of the text as written; ends are
-    exclusive. `related` holds the rule call stack, innermost first.
+    exclusive. `fixes` are texts for the marked place. `related` holds the rule call stack,
+    innermost first.
     """
     return {
         "code": diagnostic.code,
@@ -53,6 +55,7 @@ def to_json(diagnostic: Diagnostic) -> dict[str, Any]:
         "label": diagnostic.label,
         "notes": list(diagnostic.notes),
         "help": diagnostic.help,
+        "fixes": list(fixes(diagnostic)),
         "related": [{"message": r.message, **_place(r.span)} for r in diagnostic.related],
     }
 

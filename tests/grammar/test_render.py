@@ -98,6 +98,7 @@ def test_json() -> None:
         "label": "no such site",
         "notes": ["sites are named in capitals"],
         "help": "did you mean `@CH`?",
+        "fixes": ["@CH"],
         "related": [
             {
                 "message": "while evaluating `:dog`, called",

@@ -6,11 +6,7 @@ import importlib.util
 import json
 import os
 import statistics
-import threading
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +14,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from programs import Node
-from served import Served
+from served import Served, web_server
 
 import azee
 from azee.player.export import NotAnExportError, export_page
@@ -33,23 +29,6 @@ DROP_M = 0.15
 """By how much a hand may go down between two letters."""
 
 pytestmark = pytest.mark.slow
-
-
-class _Quiet(SimpleHTTPRequestHandler):
-    def log_message(self, *_: object) -> None:
-        """Say nothing."""
-
-
-@contextmanager
-def _web_server(folder: Path) -> Iterator[str]:
-    """Serve a folder as any web server does."""
-    handler = partial(_Quiet, directory=str(folder))
-    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        yield f"http://127.0.0.1:{server.server_port}/"
-        server.shutdown()
-        thread.join()
 
 
 def _pictures(tmp_path: Path) -> Path:
@@ -120,7 +99,7 @@ def test_an_exported_page_joins_letters_without_a_server(
     few = letters("asl", signer, "ABL")
     count = export_page(folder, signer, [few, texts([], signer)], text="lab")
     assert count == 3
-    with _web_server(folder) as url:
+    with web_server(folder) as url:
         arguments = (url, "b é al", _pictures(tmp_path) / "folder.png")
         seen = json.loads(browser("player_folder.mjs", *arguments))
     assert (seen["complaints"], seen["foreign"], seen["quit"]) == ([], [], False)
@@ -148,7 +127,7 @@ def test_the_gallery_plays_clips_as_the_body_moves(browser: Node, tmp_path: Path
     made = azee.compile(example)
     frames = [0, len(made.clip.times) // 2, len(made.clip.times) - 1]
     times = [float(made.clip.times[n] - made.clip.times[0]) for n in frames]
-    with _web_server(tmp_path) as url:
+    with web_server(tmp_path) as url:
         arguments = (url, ",".join(map(str, times)), _pictures(tmp_path) / "gallery.png")
         seen = json.loads(browser("player_element.mjs", *arguments))
     assert seen["foreign"] == []

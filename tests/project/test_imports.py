@@ -125,6 +125,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     },
     "azee.lexicon": {"azee.export.files", "azee_grammar", "lark", "lxml"},
     "azee.lsp": {"azee.assist", "azee.lang", "azee_grammar", "pygls", "lsprotocol"},
+    "azee.mcp": {
+        *("azee.compilation", "azee.export", "azee.formats", "azee.lang", "azee.quality"),
+        *("azee_grammar", "azee_rig", "mcp"),
+    },
     "azee.notebook": {*OURS, "numpy", "PIL"},
     "azee.repl": {*OURS, "numpy", "PIL", "prompt_toolkit"},
     "azee.cli": {*OURS, "click", "rich", "platformdirs", "sqlalchemy"},

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # Builds the wheel, installs it alone into a new environment outside the checkout, and runs the
-# fast tests against it there. Usage: wheel.sh PYTHON
+# fast tests against it there. Usage: wheel.sh PYTHON [pinned|oldest|newest]
+# Dependencies are those of constraints.txt, the oldest that pyproject.toml allows, or the newest.
 set -euo pipefail
 python=$PWD/$1
+versions=${2:-pinned}
 root=$PWD
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
@@ -12,7 +14,12 @@ trap 'rm -rf "$place"' EXIT
 bin=$place/env/bin
 [ -d "$bin" ] || bin=$place/env/Scripts
 wheel=$(ls "$place"/*.whl)
-"$bin/python" -m pip install --quiet --disable-pip-version-check -c constraints.txt "$wheel[dev]"
+case $versions in
+  pinned) cp constraints.txt "$place" ;;
+  oldest) "$python" packaging/oldest.py >"$place/constraints.txt" ;;
+  newest) : >"$place/constraints.txt" ;;
+esac
+"$bin/python" -m pip install --quiet --disable-pip-version-check -c "$place/constraints.txt" "$wheel[dev]"
 
 # What the tests read besides the packages; node_modules is lent, not copied.
 mkdir "$place/checkout"

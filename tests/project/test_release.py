@@ -1,0 +1,95 @@
+"""What a release needs: versions and dependencies that agree, workflows that call make."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import shutil
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+FILES = ("pyproject.toml", "CITATION.cff", "CHANGELOG.md", "packaging/conda/meta.yaml")
+WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+
+
+def _script(name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, ROOT / "packaging" / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_all_files_agree_on_version_and_dependencies() -> None:
+    assert list(_script("release").disagreements()) == []
+
+
+@pytest.mark.parametrize(
+    ("file", "before", "after", "told"),
+    [
+        ("CITATION.cff", "version: 0.1.0", "version: 0.2.0", "CITATION.cff does not have"),
+        ("CHANGELOG.md", "## 0.1.0 –", "## 0.2.0 –", "CHANGELOG.md has no section"),
+        ("packaging/conda/meta.yaml", "- lark >=1.2\n", "", "lark>=1.2 is only in pyproject"),
+        ("packaging/conda/meta.yaml", "- lark >=1.2", "- lark >=1.0", "lark>=1.0 is only there"),
+    ],
+)
+def test_a_file_that_differs_is_named(
+    file: str, before: str, after: str, told: str, tmp_path: Path
+) -> None:
+    for name in FILES:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(ROOT / name, tmp_path / name)
+    text = (tmp_path / file).read_text(encoding="utf-8")
+    assert before in text
+    (tmp_path / file).write_text(text.replace(before, after, 1), encoding="utf-8")
+    assert any(told in line for line in _script("release").disagreements(tmp_path))
+
+
+def test_a_tag_needs_its_version_and_a_date() -> None:
+    found = list(_script("release").disagreements(tag="v9.9.9"))
+    assert any("v9.9.9 is not v" in line for line in found)
+
+
+def test_the_oldest_dependencies_are_exact() -> None:
+    assert _script("oldest").oldest(["click>=8.1", "lark>=1.2"]) == ["click==8.1", "lark==1.2"]
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)
+def test_workflows_call_targets_that_exist(path: Path) -> None:
+    targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M))
+    workflow = yaml.safe_load(path.read_text(encoding="utf-8"))
+    called = []
+    for job in workflow["jobs"].values():
+        versions = job.get("strategy", {}).get("matrix", {}).get("versions", [""])
+        for step in job["steps"]:
+            assert ("run" in step) != ("uses" in step)
+            run = step.get("run", "")
+            filled = (run.replace("${{ matrix.versions }}", version) for version in versions)
+            called += [m[1] for m in (re.match(r"make (\S+)", line) for line in filled) if m]
+    assert called
+    assert set(called) <= targets
+
+
+def test_systems_and_versions_of_python_that_are_tried() -> None:
+    text = (ROOT / ".github" / "workflows" / "test.yml").read_text(encoding="utf-8")
+    matrix = yaml.safe_load(text)["jobs"]["check"]["strategy"]["matrix"]
+    assert {system.partition("-")[0] for system in matrix["system"]} == {
+        "ubuntu",
+        "macos",
+        "windows",
+    }
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    classified = re.findall(r"Programming Language :: Python :: (3\.\d+)", project)
+    assert matrix["python"] == classified
+
+
+def test_the_citation_has_what_its_format_requires() -> None:
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert {"cff-version", "message", "title", "authors", "version", "license"} <= set(citation)
+    for reference in citation["references"]:
+        assert {"type", "title", "authors"} <= set(reference)

@@ -263,11 +263,15 @@ class DragSolver:
         return tuple(found.site for found in near[:1])
 
     def sites(self, handles: frozenset[Handle]) -> SiteMap:
-        """Return the sites that stay where they are when handles are dragged."""
+        """Return the sites that stay where they are when handles are dragged.
+
+        Those of an arm on its way are none: where it is then hangs on everything about it.
+        """
         if handles not in self._sites:
             frames = kinematics.frames(self._rig.chain, self.instant.q)
             free, _ = self.linked(handles)
-            self._sites[handles] = SiteMap(self.instant.evaluator, frames, free)
+            passing = self.instant.on_the_way
+            self._sites[handles] = SiteMap(self.instant.evaluator, frames, free | passing)
         return self._sites[handles]
 
     def _reference(self, free: frozenset[int]) -> Array:

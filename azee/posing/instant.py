@@ -44,6 +44,18 @@ class Instant:
     limbs: Limbs
     around: tuple[TimedTask, ...]
 
+    @property
+    def on_the_way(self) -> frozenset[int]:
+        """Coordinates of arms that the score needs, but not now."""
+        arms = {
+            frozenset(members.tolist())
+            for limb, members in self.limbs.members.items()
+            if limb.startswith("arm_")
+        }
+        now = {v for task in self.tasks for v in task.moves}
+        ever = {v for task in self.around for v in task.moves}
+        return frozenset().union(*(arm for arm in arms if arm & ever and not arm & now))
+
     @classmethod
     def of(cls, made: Compilation, time_s: float, dominant: Side) -> Instant:
         """Find the state of a compiled score. Raises: AZeeError: cannot-pose: no such time."""

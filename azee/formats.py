@@ -18,6 +18,7 @@ from azee_grammar.diagnostic import AZeeError, Diagnostic
 if TYPE_CHECKING:
     from azee.animation import Animation
     from azee.clip.clip import Clip
+    from azee.export.landmarks.view import View
     from azee.export.track_rows import Row
     from azee.motion.tasks.tracks import Track
     from azee.score.provenance import Provenance
@@ -99,11 +100,23 @@ def _npz(clip: Clip, rig: Rig, path: Path) -> None:
 
 
 def _pose(clip: Clip, rig: Rig, path: Path) -> None:
+    from azee.export.landmarks.view import View
+
+    _pose_seen(clip, rig, path, View())
+
+
+def _pose_from(clip: Clip, rig: Rig, path: Path, camera: str, fps: float) -> None:
+    from azee.export.landmarks.view import View
+
+    _pose_seen(clip, rig, path, View(camera, fps=fps))
+
+
+def _pose_seen(clip: Clip, rig: Rig, path: Path, view: View) -> None:
     from azee.export.landmarks.files import write_pose
     from azee.export.landmarks.view import landmarks
 
     with frames_counted():
-        write_pose(landmarks(clip, rig), path)
+        write_pose(landmarks(clip, rig, view), path)
 
 
 def _vrma(clip: Clip, rig: Rig, path: Path) -> None:
@@ -272,6 +285,9 @@ CORPUS_SUFFIXES = (".csv", ".json", *CHART_SUFFIXES)
 LANDMARK_SUFFIXES = (".pose", ".csv", ".npz")
 """Suffixes of landmarks."""
 WRITERS |= dict.fromkeys(FILM_SUFFIXES, _film)
-CAMERA_WRITERS: dict[str, CameraWriter] = dict.fromkeys(FILM_SUFFIXES, _film_from)
+CAMERA_WRITERS: dict[str, CameraWriter] = {
+    **dict.fromkeys(FILM_SUFFIXES, _film_from),
+    ".pose": _pose_from,
+}
 """Formats of a clip that is seen from somewhere, by the name of a camera, with so many frames a
 second: of those in `WRITERS`, what `azee batch` writes for each camera."""

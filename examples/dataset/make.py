@@ -33,8 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--bodies", default=BODIES)
     parser.add_argument("--cameras", default=CAMERAS)
     parser.add_argument("--speeds", default=SPEEDS)
-    seen = "pose" if ".pose" in CAMERA_WRITERS else "mp4"
-    parser.add_argument("--formats", default=f"{seen},bvh", help="by default %(default)s")
+    parser.add_argument("--formats", default="pose,bvh", help="by default %(default)s")
     parser.add_argument("more", nargs="*", help="options of azee batch, after --")
     chosen = parser.parse_args(arguments)
     chosen.out.mkdir(parents=True, exist_ok=True)

@@ -149,12 +149,11 @@ def animation(file: Path, onto: Path, output: Path, rig: str, quiet: bool) -> in
 
     Mesh, textures and hair stay in BODY.glb. What its file calls its joints, the animation does.
     """
-    from azee.export.formats.own_joints import NotItsFileError, write_own_animation
-    from azee_rig.importing.fault import BodyError
+    from azee.export.formats.own_joints import write_own_animation
 
     check_outputs([output])
     found = _open(file, rig, quiet)
-    with _of_its_body(onto, BodyError, NotItsFileError), writing(output):
+    with _of_its_body(onto), writing(output):
         notes = write_own_animation(found.clip, found.rig, onto, output)
     for note in notes:
         news(note, quiet=quiet)
@@ -163,13 +162,20 @@ def animation(file: Path, onto: Path, output: Path, rig: str, quiet: bool) -> in
 
 
 @contextmanager
-def _of_its_body(onto: Path, *faults: type[Exception]) -> Iterator[None]:
+def _of_its_body(onto: Path) -> Iterator[None]:
     """Turn a body's file that cannot be used into a diagnostic. Raises: AZeeError."""
+    from azee.export.formats.own_joints import NotItsFileError
+    from azee_rig.importing.fault import BodyError
+
     try:
         yield
-    except faults as error:
-        code = getattr(error, "code", "body-unsupported")
-        raise AZeeError(Diagnostic(code, f"`{onto}`: {error}", None)) from error
+    except BodyError as error:
+        message = f"`{onto}`: {error.message}"
+        raise AZeeError(
+            Diagnostic(error.code, message, None, notes=error.notes, help=error.help)
+        ) from error
+    except NotItsFileError as error:
+        raise AZeeError(Diagnostic("body-unsupported", f"`{onto}`: {error}", None)) from error
 
 
 def _open(file: Path, rig: str | None, quiet: bool) -> OpenClip:

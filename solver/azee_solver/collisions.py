@@ -33,7 +33,7 @@ BENT = 0.9
 """Of their upper limits, joints that are bent."""
 MARGIN_M = 0.004
 """Capsules hold most of the skin, not all: arms and hands are kept so far from trunk and head."""
-BROAD = (*UPRIGHT, "clav", "arm", "f_arm")
+BROAD = (*UPRIGHT, "clav", "arm")
 """Bones that all fingers of a hand lie on where one of them touches."""
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 BESIDE_M, FAR_M = 0.04, 0.1

@@ -30,8 +30,7 @@ from azee.motion.overlay.recordings import life_share, recorded_face
 from azee.motion.overlay.saturation import saturated
 from azee.motion.overlay.seed import seed_of
 from azee.motion.overlay.trill import add_trills, oscillation
-from azee.motion.projection.projection import inside, on_living_body, project
-from azee.motion.projection.reference import Reference, limits_for
+from azee.motion.projection.projection import Reference, inside, on_living_body, project
 from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.key_posture import PostureSolver, Search
 from azee.motion.tasks.key_selection import MODES, KeySelection, Mode
@@ -290,12 +289,11 @@ def _with_layers(
     seconds = np.array([float(time) for time in times])
     q = planned.movement.sample(seconds)
     accents = accent_layers(schedule.accents, seconds, evaluator)
-    limits = limits_for(q + accents.offsets, evaluator.rig.coordinates)
     if seed is not None and layered:
         lively = life_share(schedule.recorded, seconds, q.shape[1])
         q = q + lively * life_of(evaluator.rig, q, seconds, seed)
     played = imposed(schedule.recorded, times, q.shape[1]).mask
-    return Reference(tuple(times), q + accents.offsets, accents.asked, played, *limits)
+    return Reference(tuple(times), q + accents.offsets, accents.asked, played)
 
 
 def _with_trills(

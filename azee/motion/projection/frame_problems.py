@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from azee.motion.keys.residual_monitor import ResidualMonitor
 from azee.motion.keys.transpath import AnchoredPath
-from azee.motion.projection.reference import Reference
 from azee.motion.tasks.limbs import CARRIERS, TRUNK, is_finger, limb_of_coordinate
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
@@ -69,17 +68,27 @@ class FrameProblems:
     factors: Mapping[int, float]
     options: SolveOptions
 
-    def trajectory(self, reference: Reference, fps: float) -> Trajectory:
-        """Return the problem of the frames of a movement, near it and inside its limits."""
-        times = reference.times
+    def trajectory(
+        self,
+        times: Sequence[Fraction],
+        reference: Array,
+        accented: Mask,
+        played: Mask,
+        fps: float,
+    ) -> Trajectory:
+        """Return the problem of the frames at exact times, near a movement.
+
+        Args: reference: (T, V). accented: (T, V), where accents ask for what the reference has.
+            played: (T, V), where the reference is kept.
+        """
         coordinates = self.monitor.evaluator.rig.coordinates
         free_keep = self.options.posture * np.array(coordinates.stiffness) ** 2
         carriers = [limb_of_coordinate(name) in CARRIERS for name in coordinates.names]
         free_keep[carriers] *= CARRIER_SHARE
         keep = np.tile(free_keep, (len(times), 1))
-        keep[reference.accented] = (ACCENT_SHARE * self.options.tolerance.angle_rad) ** -2
-        fixed = reference.played.copy()
-        target = np.clip(reference.q, reference.lower, reference.upper)
+        keep[accented] = (ACCENT_SHARE * self.options.tolerance.angle_rad) ** -2
+        fixed = played.copy()
+        target = np.clip(reference, coordinates.lower, coordinates.upper)
         of_frame = np.empty(len(times), dtype=np.int64)
         programs: list[Program] = []
         moving: list[_Moving] = []
@@ -98,11 +107,11 @@ class FrameProblems:
             for v, bound in problem.yielding.items():
                 keep[rows, v] = np.maximum(keep[rows, v], (YIELD_SHARE * bound) ** -2)
             moving += self._paths(problem, rows, times)
-            moving += self._moving_targets(problem, rows, times, reference.q)
+            moving += self._moving_targets(problem, rows, times, reference)
         smooth = free_keep * (SMOOTH_S * fps) ** (2 * ORDER)
         refilling = _Refilling.of(self.monitor.evaluator, moving)
         return Trajectory(
-            programs, of_frame, target, keep, fixed, smooth, reference.lower, reference.upper,
+            programs, of_frame, target, keep, fixed, smooth, coordinates.lower, coordinates.upper,
             self.options.overlap, refilling,
         )  # fmt: skip
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -14,12 +14,25 @@ from azee.motion.keys.plan import Plan
 from azee.motion.keys.residual_monitor import MovementSamples
 from azee.motion.keys.transpath import PathEnd
 from azee.motion.projection.frame_problems import FrameProblems
-from azee.motion.projection.reference import Reference
 from azee_rig.chain import Frames
 from azee_solver import kinematics
 from azee_solver.options import SolveOptions
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reference:
+    """The movement that is wanted as far as constraints allow, at the frames of a clip.
+
+    times: exact, on the score's time line. q: (T, V), not limited. accented: (T, V), where accents
+    ask for what q has. played: (T, V), where q is a recording's, which is not changed.
+    """
+
+    times: tuple[Fraction, ...]
+    q: Array
+    accented: NDArray[np.bool_]
+    played: NDArray[np.bool_]
 
 
 LEAD = 0.018
@@ -56,7 +69,10 @@ def project(planned: Plan, reference: Reference, fps: float) -> Array:
     """Return the movement (T, V) nearest to a reference that meets what is in force, smoothly."""
     factors = {**_weights_beside_recordings(planned), **_weights_of_unmet(planned)}
     problems = FrameProblems(planned.monitor, factors, SolveOptions())
-    return problems.trajectory(reference, fps).solve(fps)
+    problem = problems.trajectory(
+        reference.times, reference.q, reference.accented, reference.played, fps
+    )
+    return problem.solve(fps)
 
 
 PLAYED_WEIGHT = 9.0

@@ -99,6 +99,8 @@ def test_ctrl_c_leaves_whole_files_and_a_manifest(
         env=environment,
         stderr=subprocess.PIPE,
         start_new_session=True,
+        # What starts the tests may ignore Ctrl-C, as shells have it for jobs in the background.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     while not states(out) and command.poll() is None:
         time.sleep(0.02)

@@ -8,7 +8,7 @@ import math
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -29,12 +29,17 @@ sys.exit(bool(build.build(Path(sys.argv[2]), [build.FIRST])))
 
 
 @pytest.fixture
-def site(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Import a module of the site."""
+def site(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    """Import a module of the site, whatever module of a test has its name."""
     import importlib
 
     monkeypatch.syspath_prepend(str(SITE))
-    return importlib.import_module
+    names = {path.stem for path in SITE.glob("*.py")}
+    others = {name: sys.modules.pop(name) for name in names & sys.modules.keys()}
+    yield importlib.import_module
+    for name in names & sys.modules.keys():
+        del sys.modules[name]
+    sys.modules.update(others)
 
 
 @pytest.mark.parametrize(

@@ -57,6 +57,7 @@ def build(out: Path, sources: Sequence[Path] = gallery.EXAMPLES) -> list[str]:
         write_documents(work / "source", sources)
         write_static(work / "static", sources)
         run_sphinx(work)
+        (work / "site" / ".buildinfo").unlink(missing_ok=True)  # what Sphinx keeps to build again
         broken = list(links.broken(work / "site"))
         if not broken:
             shutil.rmtree(out, ignore_errors=True)

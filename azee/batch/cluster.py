@@ -97,8 +97,8 @@ class ClusterWorkers:
             if error is None and not future.cancelled():
                 record: Record = future.result()
                 return record
-        except (OSError, CancelledError) as lost:
-            raise AZeeError(self._gone()) from lost
+        except (OSError, CancelledError) as cause:
+            raise AZeeError(self._gone()) from cause
         if error is None or isinstance(error, CancelledError):
             raise AZeeError(self._gone())
         return passing(task, [failure(f"{type(error).__name__}: {error}")])

@@ -20,7 +20,7 @@ MOST_SESSIONS = 4
 MOST_PROPOSALS = 40
 
 
-class LostError(Exception):
+class NoSessionError(Exception):
     """There is no such session any more: the worker is another, or too many pages pose."""
 
 
@@ -37,7 +37,7 @@ class Posing:
 
         Args: message: `client`, `session`, `act` and what that needs. compiled: returns the text of
             the message and its movement.
-        Raises: LostError. AZeeError: the text has mistakes, or nothing can be dragged like that.
+        Raises: NoSessionError. AZeeError: the text has mistakes, or nothing can be dragged so.
         """
         client, number, act = message["client"], message["session"], message["act"]
         if act == "open":
@@ -74,7 +74,7 @@ class Posing:
     def _session(self, client: int, number: int) -> PosingSession:
         known, session = self._sessions.get(client, (None, None))
         if session is None or known != number:
-            raise LostError
+            raise NoSessionError
         self._sessions.move_to_end(client)
         return session
 

@@ -26,7 +26,7 @@ from azee.studio.compiling import (
 )
 from azee.studio.framing import Header, packed, read_message
 from azee.studio.job import Job
-from azee.studio.posing import LostError, Posing
+from azee.studio.posing import NoSessionError, Posing
 from azee.studio.postures import Postures
 from azee_grammar.diagnostic import AZeeError
 from azee_grammar.render import to_json
@@ -172,7 +172,7 @@ class Worker:
         answer: dict[str, Any] = {name: message[name] for name in ("act", "session", "serial")}
         try:
             answer |= self._posing.act(message, made)
-        except LostError:
+        except NoSessionError:
             answer["lost"] = True
         except AZeeError as error:
             answer["message"] = error.diagnostics[0].message

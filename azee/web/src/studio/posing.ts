@@ -6,7 +6,7 @@ import type { Signer } from './signer';
 import type { Words } from './words';
 
 const STEP_M = 0.01; // for a key
-const SETTLED_MS = 250; // after the last change of time
+const STILL_MS = 250; // after the last change of time
 const ATTEMPTS = 3; // to open a session that was lost
 
 export interface Around {
@@ -88,7 +88,7 @@ export class Posing {
     if (!this.open || this.around.instant() === this.at) return;
     this.pause();
     clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => this.moved(), SETTLED_MS);
+    this.timer = window.setTimeout(() => this.moved(), STILL_MS);
   }
 
   private pause(): void {

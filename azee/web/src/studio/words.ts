@@ -73,7 +73,7 @@ const FRENCH: Words = {
   rules: 'Règles', reasons: 'Raisons', versions: 'Versions', film: 'Film', settings: 'Réglages',
   blocks: 'Blocs', commentsGone: 'Commentaires partis avec :',
   blockHelp: 'Glissez un bloc, ou choisissez-en un : Alt ↑ ↓ le déplace, Suppr l’enlève, Entrée le montre dans le texte.',
-  pose: 'Poser', part: 'Partie', shape: 'Doigts ou visage', weight: 'Poids', fingers: 'Doigts',
+  pose: 'Posture', part: 'Partie', shape: 'Doigts ou visage', weight: 'Poids', fingers: 'Doigts',
   poseHelp: 'Glissez un point du corps ; la molette l’éloigne ou l’approche. Au clavier : choisissez une partie, Alt avec flèches et Page préc., Page suiv. la déplace, Entrée propose.',
   poseAgain: 'Comme dans le texte', chooseProposal: 'Choisissez ce qui est écrit :',
   noProposal: 'Rien ne peut être écrit pour cela ici.',

@@ -13,12 +13,13 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from azee.cli.main import run
 from azee.formats import CAMERA_WRITERS
-from examples.dataset.card import data_card
-from examples.dataset.texts import texts
+from dataset.card import data_card
+from dataset.texts import texts
 
 BODIES = "signer,child,game,heavy"
 CAMERAS = "front,three-quarter,side"

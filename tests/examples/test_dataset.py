@@ -6,12 +6,12 @@ import json
 from pathlib import Path
 
 import pytest
+from dataset.card import data_card
+from dataset.texts import COUNT, texts
 from programs import Python
 
 from azee.lang.program import load
 from azee_grammar.source import Source
-from examples.dataset.card import data_card
-from examples.dataset.texts import COUNT, texts
 
 MAKE = Path(__file__).parents[2] / "examples" / "dataset" / "make.py"
 

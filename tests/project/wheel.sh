@@ -31,4 +31,4 @@ fi
 
 cd "$place/checkout"
 "$bin/python" -c "import azee, sys; sys.exit('site-packages' not in azee.__file__)"
-"$bin/python" -m pytest -q -n auto -m "not slow" -o pythonpath= --ignore tests/project --ignore tests/mutants
+"$bin/python" -m pytest -q -n auto -m "not slow" -o pythonpath=examples --ignore tests/project --ignore tests/mutants

@@ -161,6 +161,8 @@ async function author() {
 
 /** Drags a part of the body by the mouse, in steps; returns where it was on the page. */
 async function drag(page, handle, dx, dy, steps = 12) {
+  // A text that has just changed is posed anew: its parts are there when that is done.
+  await page.waitForFunction(h => azeeStudio.posing.idle && azeeStudio.posing.onPage(h), handle);
   const [x, y] = await page.evaluate(h => azeeStudio.posing.onPage(h), handle);
   await page.mouse.move(x, y);
   await page.mouse.down();

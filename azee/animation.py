@@ -149,13 +149,13 @@ def animate(
         performance = performed(score, evaluator, selection, postures, pace, at_rest)
         score, needed_s = performance.score, Ways(evaluator, selection.limbs.members, pace).needed_s
 
-    # 2. Project the nested score on one time line.
-    timeline = flatten(score)
+    # 2. Project the nested score on one time line; of what is performed there is one already.
+    schedule = performance.schedule
+    timeline = flatten(score) if schedule is None else schedule.timeline
 
     # 3. Bind every constraint to the body: a timed task says which limbs it moves and reads.
-    schedule = performance.schedule or bind(
-        timeline, rig, evaluator.binding, selection.limbs, layered=layered
-    )
+    if schedule is None:
+        schedule = bind(timeline, rig, evaluator.binding, selection.limbs, layered=layered)
 
     # 4 to 10. Solve key postures and join them to a movement.
     frames_inside = [n / rate for n in range(math.floor(score.duration * rate) + 1)]

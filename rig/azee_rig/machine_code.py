@@ -113,7 +113,8 @@ class Kernel:
 
     def __call__(self, *words: int | NDArray[Any]) -> None:
         """Call it with numbers and arrays, which must be contiguous in memory, row by row."""
-        block = np.array([_word(word) for word in words], dtype=np.int64)
+        given = [word if isinstance(word, int) else address(word) for word in words]
+        block = np.array(given, dtype=np.int64)
         self._function(block.ctypes.data)
 
     def _compiled(self) -> Any:
@@ -165,13 +166,15 @@ class Kernel:
 _EIGHT_BYTES = frozenset((np.dtype(np.float64), np.dtype(np.int64)))
 
 
-def _word(word: int | NDArray[Any]) -> int:
-    if isinstance(word, int):
-        return word
-    if not word.flags.c_contiguous or word.dtype not in _EIGHT_BYTES:
+def address(array: NDArray[Any]) -> int:
+    """Return where an array lies in memory, for a kernel; whoever keeps it keeps the array, too.
+
+    Raises: ValueError: its numbers are not of eight bytes, or not row by row.
+    """
+    if not array.flags.c_contiguous or array.dtype not in _EIGHT_BYTES:
         raise ValueError("kernels take eight-byte numbers, row by row")
-    address: int = word.__array_interface__["data"][0]
-    return address
+    found: int = array.__array_interface__["data"][0]
+    return found
 
 
 def _symbol(name: str) -> str:

@@ -1,6 +1,6 @@
 """Constraints as AZee declares them: rig-independent, frozen, each with its origin.
 
-Only declarations: this module and `geometry` import nothing but the standard library, so that a
+Only declarations: neither this module nor what it imports needs more than the standard library: a
 text can be checked without loading a solver.
 """
 
@@ -12,6 +12,7 @@ from enum import Enum
 from typing import TypeAlias
 
 from azee_solver.geometry import Bone, Path, Point, Side, Site, Vector
+from azee_solver.hashing import RemembersHash, hash_once
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +26,7 @@ class Origin:
 
 
 @dataclass(frozen=True, slots=True)
-class _Constraint:
+class _Constraint(RemembersHash):
     origin: Origin | None = field(default=None, compare=False, kw_only=True)
 
 
@@ -43,6 +44,7 @@ class Relation(Enum):
     ACROSS = "across"
 
 
+@hash_once
 @dataclass(frozen=True, slots=True)
 class Place(_Constraint):
     """`place SITE POINT`: the site lies at the point.
@@ -59,6 +61,7 @@ class Place(_Constraint):
     within_m: float = 0.0
 
 
+@hash_once
 @dataclass(frozen=True, slots=True)
 class Orient(_Constraint):
     """`orient 'dir|'nrm BONE 'along|'across VECTOR`: met up to `within_rad` off."""
@@ -70,6 +73,7 @@ class Orient(_Constraint):
     within_rad: float = 0.0
 
 
+@hash_once
 @dataclass(frozen=True, slots=True)
 class Look(_Constraint):
     """`look VECTOR`: eyes first, then head, then neck."""
@@ -77,6 +81,7 @@ class Look(_Constraint):
     vector: Vector
 
 
+@hash_once
 @dataclass(frozen=True, slots=True)
 class LookAt(_Constraint):
     """`lookat POINT`: eyes first, then head, then neck."""
@@ -84,6 +89,7 @@ class LookAt(_Constraint):
     point: Point
 
 
+@hash_once
 @dataclass(frozen=True, slots=True)
 class Morph(_Constraint):
     """`morph 'name [side] w`: facial shapes and skeletal presets; negative weights are legal.
@@ -101,6 +107,7 @@ class Morph(_Constraint):
         return self.name if self.side is None else f"{self.name}_{self.side.bound(dominant).value}"
 
 
+@hash_once
 @dataclass(frozen=True, slots=True)
 class Trill(_Constraint):
     """`trill BONE AXIS`: a small rapid oscillation of a bone about an axis, while it lasts.
@@ -130,6 +137,7 @@ class Trill(_Constraint):
         return self.cycles / duration_s if duration_s > 0 else math.inf
 
 
+@hash_once
 @dataclass(frozen=True, slots=True)
 class Rotate(_Constraint):
     """`rotate BONE AXIS ANGLE`: from neutral, axis in the parent bone's frame."""
@@ -150,6 +158,7 @@ class Manner(Enum):
     __hash__ = object.__hash__
 
 
+@hash_once
 @dataclass(frozen=True, slots=True)
 class Transpath(_Constraint):
     """`transpath SITE PATH`: controlled movement between the places before and after."""

@@ -12,13 +12,14 @@ theorem).
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.chain import Frames
-from azee_rig.machine_code import Kernel
+from azee_rig.machine_code import Kernel, address
 
 if TYPE_CHECKING:
     from azee_rig.chain import Chain
@@ -90,6 +91,21 @@ class Parting:
         return depth, slope
 
 
+@lru_cache(maxsize=16)
+def _addresses(chain: Chain) -> tuple[int, ...]:
+    """Return where the arrays of a chain lie, which never change, in the order of the kernel."""
+    arrays = (
+        chain.parents,
+        chain.offsets,
+        chain.zero,
+        chain.dof_start,
+        chain.dof_axis,
+        chain.dof_scale,
+        chain.dof_coordinate,
+    )
+    return tuple(map(address, arrays))
+
+
 def _posed(
     chain: Chain,
     q: Array,
@@ -110,13 +126,7 @@ def _posed(
         *(len(nodes), len(pairs), slopes),
         np.array(q, dtype=np.float64, order="C"),
         column,
-        chain.parents,
-        chain.offsets,
-        chain.zero,
-        chain.dof_start,
-        chain.dof_axis,
-        chain.dof_scale,
-        chain.dof_coordinate,
+        *_addresses(chain),
         nodes,
         ends,
         pairs,

@@ -16,6 +16,7 @@ from azee_solver.constraint import (
     Transpath,
     Trill,
 )
+from azee_solver.hashing import RemembersHash, hash_once
 
 PRECEDENCE: tuple[frozenset[type], ...] = (
     frozenset({Place}),
@@ -31,8 +32,9 @@ of 2022 print another one: it is data, so that either can be had."""
 _PLACE = {kind: place for place, kinds in enumerate(PRECEDENCE) for kind in kinds}
 
 
+@hash_once
 @dataclass(frozen=True, slots=True)
-class Task:
+class Task(RemembersHash):
     """A constraint that is active at the moment that is solved.
 
     path: names of the blocks that lead to it, outermost first. start_s: when its block starts, on

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from azee.clip.spline import minimum_jerk
-from azee.motion.curves.minimum_jerk import OVERSHOOT, curve_through
+from azee.motion.curves.minimum_jerk import OVERSHOOT, MinimumJerkCurve
 
 GAPS = st.lists(st.floats(0.05, 1), min_size=1, max_size=9)
 
@@ -14,7 +14,7 @@ def test_samples_of_a_minimum_jerk_movement_give_that_movement(gaps: list[float]
     x = np.cumsum([0.0, *gaps])
     f = minimum_jerk(x / x[-1])
     at = np.linspace(x[0], x[-1], 23)
-    got = curve_through(x, np.stack([f, -2 * f], axis=1), at)
+    got = MinimumJerkCurve(x, np.stack([f, -2 * f], axis=1))(at)
     want = minimum_jerk(at / x[-1])
     assert got == pytest.approx(np.stack([want, -2 * want], axis=1), abs=1e-8)
 
@@ -25,12 +25,12 @@ def test_a_curve_goes_through_its_samples_near_them_and_rests_at_its_ends(
 ) -> None:
     x = np.cumsum([0.0, *gaps])
     y = np.random.default_rng(seed).normal(size=(len(x), 3))
-    assert curve_through(x, y, x) == pytest.approx(y, abs=1e-9)
+    assert MinimumJerkCurve(x, y)(x) == pytest.approx(y, abs=1e-9)
     h = 1e-5
     for end, inward in ((x[0], h), (x[-1], -h)):
-        p = curve_through(x, y, end + inward * np.arange(3))
+        p = MinimumJerkCurve(x, y)(end + inward * np.arange(3))
         assert np.abs(np.diff(p, axis=0)).max() < 1e-7
-    far = curve_through(x, y, np.linspace(x[0], x[-1], 200))
+    far = MinimumJerkCurve(x, y)(np.linspace(x[0], x[-1], 200))
     room = OVERSHOOT * np.ptp(y, axis=0) + 1e-9
     assert np.all((far > y.min(axis=0) - room) & (far < y.max(axis=0) + room))
 
@@ -40,7 +40,7 @@ def test_a_curve_has_no_kink_where_pieces_meet_of_minimum_jerk_or_monotone() -> 
     for x in (np.array([0.0, 0.2, 0.5, 0.6, 1.0]), np.array([0.0, 0.95, 1.0])):
         y, h = rng.normal(size=(len(x), 3)), 1e-4
         for knot in x[1:-1]:
-            p = curve_through(x, y, knot + h * np.array([-2, -1, 0, 1, 2]))
+            p = MinimumJerkCurve(x, y)(knot + h * np.array([-2, -1, 0, 1, 2]))
             slope_jump = (p[4] - p[2]) / (2 * h) - (p[2] - p[0]) / (2 * h)
             curve_jump = (p[4] - 2 * p[3] + p[2]) / h**2 - (p[2] - 2 * p[1] + p[0]) / h**2
             assert np.abs(slope_jump).max() < 0.05 * np.abs(p[4] - p[0]).max() / h

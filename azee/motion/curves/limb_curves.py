@@ -13,18 +13,18 @@ it goes there directly.
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee.clip.quintic import State, quintic
+from azee.clip.spline import minimum_jerk
 from azee.motion.curves.manner import share_of_way
-from azee.motion.curves.minimum_jerk import curve_through
+from azee.motion.curves.minimum_jerk import MinimumJerkCurve
 from azee_solver.constraint import Manner
 
 Array = NDArray[np.float64]
@@ -60,8 +60,6 @@ LONGEST_CALM_S = 0.7
 
 CALM_M_S = 1.5
 """Largest speed of a wrist that has time: people who sign rarely exceed it (docs/likeness.md)."""
-PEAK_SPEED = 1.875
-"""Largest s′."""
 
 
 def calm_transition_s(a: Array, b: Array, way_m: float = 0.0) -> float:
@@ -127,15 +125,19 @@ class Onsets:
     places: Array
     fingers: bool
 
-    def within(self, before: Array, after: Array, span_s: float) -> tuple[Array, Array]:
-        """Return when coordinates set out and arrive, (n,) each, in a movement of `span_s`."""
+    def within(self, turns: Array, spans_s: Array) -> tuple[Array, Array]:
+        """Return when coordinates set out and arrive in movements, (m, n) seconds each.
+
+        Args: turns: (m, n) how far each coordinate turns, radians. spans_s: (m,) the whole times.
+        """
+        spans = spans_s[:, None]
         if self.fingers:
-            turn = float(np.max(np.abs(after - before), initial=0.0))
+            turn = np.max(np.abs(turns), axis=1, initial=0.0, keepdims=True)
             needed = PEAK_SPEED * turn / FINGERS_RAD_S
-            done = min(span_s, max(FINGERS_DONE * span_s, needed))
-            return np.zeros_like(before), np.full_like(before, done)
-        spread = min(ONSET_SPREAD_S, SPREAD_SHARE * span_s)
-        return spread * self.places, span_s - spread * (1.0 - self.places)
+            done = np.minimum(spans, np.maximum(FINGERS_DONE * spans, needed))
+            return np.zeros_like(turns), np.broadcast_to(done, turns.shape)
+        spread = np.minimum(ONSET_SPREAD_S, SPREAD_SHARE * spans)
+        return spread * self.places, spans - spread * (1.0 - self.places)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,64 +164,92 @@ class LimbCurve:
     def sample(self, times_s: Array) -> Array:
         """Return the limb's coordinates at increasing times, (T, n); limits are the caller's."""
         out = np.broadcast_to(self.neutral, (len(times_s), len(self.neutral))).copy()
-        if not len(times_s):
-            return out
-        first, last = float(times_s[0]), float(times_s[-1])
-        for run in self.runs[bisect_left(self._run_ends, first) :]:
-            if run.start_s > last:
-                break
-            run.sample(times_s, out)
+        if len(self.keys) > 1:
+            self._runs.sample(times_s, out)
         return out
 
     @cached_property
-    def runs(self) -> tuple[_Run, ...]:
-        """The movements from each stop to the next."""
-        stops = [i for i, key in enumerate(self.keys) if not key.passing]
-        return tuple(_Run(self.keys[a : b + 1], self.onsets) for a, b in pairwise(stops))
-
-    @cached_property
-    def _run_ends(self) -> list[float]:
-        return [run.end_s for run in self.runs]
+    def _runs(self) -> _Runs:
+        return _Runs(self.keys, self.onsets)
 
 
-class _Run:
-    """A movement of a limb through its keys, from one stop to the next."""
+class _Runs:
+    """The movements of a limb from each stop to the next, end to end, as arrays of m rows.
+
+    Nearly all are of minimum jerk between two keys, and are sampled together. Those along a path,
+    of a manner of its own and from or into a recording are sampled one by one.
+    """
 
     def __init__(self, keys: Sequence[LimbKey], onsets: Onsets | None) -> None:
-        self.start_s, self.end_s = keys[0].time_s, keys[-1].time_s
-        self._knots = np.array([key.time_s for key in keys])
-        self._values = np.stack([key.values for key in keys])
-        self._still = bool(np.all(self._values == self._values[0]))
-        self._onsets, self._manner = onsets, keys[-1].manner
-        self._plays, self._moving = keys[0].plays, any(key.state for key in keys)
-        first, last = (key.state or State.at_rest(key.values) for key in (keys[0], keys[-1]))
-        self._ends = first, last
+        stops = [i for i, key in enumerate(keys) if not key.passing]
+        times_s = np.array([keys[i].time_s for i in stops])
+        values = np.stack([keys[i].values for i in stops])
+        self._starts_s, self._ends_s = times_s[:-1], times_s[1:]
+        self._values = values[:-1]
+        self._ways: Array = np.diff(values, axis=0)
+        spans_s = self._ends_s - self._starts_s
+        if onsets is None:
+            whole = np.broadcast_to(spans_s[:, None], self._ways.shape)
+            self._set_out, self._lasting = np.zeros_like(whole), whole
+        else:
+            self._set_out, arrived = onsets.within(self._ways, spans_s)
+            self._lasting = arrived - self._set_out
+        self._lasting = np.where(self._lasting > 0.0, self._lasting, 1.0)
+        self._own = {
+            run: own
+            for run, (a, b) in enumerate(pairwise(stops))
+            if (own := self._own_curve(run, keys[a : b + 1])) is not None
+        }
+
+    def _own_curve(self, run: int, keys: Sequence[LimbKey]) -> Callable[[Array], Array] | None:
+        """Return the curve of a run that is not of minimum jerk between two keys."""
+        first, last = keys[0], keys[-1]
+        if first.plays is not None:
+            return first.plays
+        if last.time_s <= first.time_s:
+            return lambda times_s: np.broadcast_to(last.values, (len(times_s), len(last.values)))
+        if any(key.state for key in keys):
+            return partial(_between_states, first, last)
+        if len(keys) == 2:
+            return None if last.manner is None else partial(self._of_manner, run, last.manner)
+        values = np.stack([key.values for key in keys])
+        if np.all(values == values[0]):
+            return None
+        return MinimumJerkCurve(np.array([key.time_s for key in keys]), values)
 
     def sample(self, times_s: Array, out: Array) -> None:
-        """Fill in the rows of the times inside, both ends included."""
-        first = int(np.searchsorted(times_s, self.start_s, side="left"))
-        last = int(np.searchsorted(times_s, self.end_s, side="right"))
+        """Fill in the rows of the times inside, the first and the last included."""
+        first = int(np.searchsorted(times_s, self._starts_s[0], side="left"))
+        last = int(np.searchsorted(times_s, self._ends_s[-1], side="right"))
         if first == last:
             return
-        rows, values = slice(first, last), self._values
-        if self._plays is not None:
-            out[rows] = self._plays(times_s[rows])
-        elif self._moving and self.end_s > self.start_s:
-            start, end = self._ends
-            since_s, span_s = times_s[rows] - self.start_s, self.end_s - self.start_s
-            out[rows] = quintic(start, end, span_s, since_s)
-        elif self._still or self.end_s <= self.start_s:
-            out[rows] = values[-1]
-        elif len(values) == 2 and self._onsets is not None:
-            a, b = self._onsets.within(values[0], values[1], self.end_s - self.start_s)
-            share = share_of_way((times_s[rows, None] - self.start_s - a) / (b - a), self._manner)
-            out[rows] = values[0] + (values[1] - values[0]) * share
-        elif len(values) == 2 and self._manner is not None:
-            lasts_s = self.end_s - self.start_s
-            share = share_of_way((times_s[rows, None] - self.start_s) / lasts_s, self._manner)
-            out[rows] = values[0] + (values[1] - values[0]) * share
-        else:
-            out[rows] = curve_through(self._knots, values, times_s[rows])
+        times_s = times_s[first:last]
+        runs = np.searchsorted(self._starts_s, times_s, side="right") - 1
+        out[first:last] = self._along(runs, minimum_jerk(self._shares(runs, times_s)))
+        for run in range(runs[0], runs[-1] + 1) if self._own else ():
+            if run in self._own:
+                a, b = np.searchsorted(runs, (run, run + 1))
+                if a < b:
+                    out[first + a : first + b] = self._own[run](times_s[a:b])
+
+    def _of_manner(self, run: int, manner: Manner, times_s: Array) -> Array:
+        runs = np.full(len(times_s), run)
+        return self._along(runs, share_of_way(self._shares(runs, times_s), manner))
+
+    def _shares(self, runs: NDArray[np.int64], times_s: Array) -> Array:
+        """Return which share of its time each coordinate has had, (T, n)."""
+        since_s = (times_s - self._starts_s[runs])[:, None]
+        shares: Array = (since_s - self._set_out[runs]) / self._lasting[runs]
+        return shares
+
+    def _along(self, runs: NDArray[np.int64], share: Array) -> Array:
+        values: Array = self._values[runs] + self._ways[runs] * share
+        return values
+
+
+def _between_states(first: LimbKey, last: LimbKey, times_s: Array) -> Array:
+    start, end = (key.state or State.at_rest(key.values) for key in (first, last))
+    return quintic(start, end, last.time_s - first.time_s, times_s - first.time_s)
 
 
 def limb_curve(keys: Sequence[LimbKey], neutral: Array, onsets: Onsets | None = None) -> LimbCurve:
@@ -256,6 +286,9 @@ def _stopping_at_first_and_last(keys: list[LimbKey]) -> list[LimbKey]:
     out = []
     for i, key in enumerate(keys):
         outermost = i in (0, 1, len(keys) - 2, len(keys) - 1)
-        beside = any(other.state is not None for other in keys[max(0, i - 1) : i + 2])
-        out.append(replace(key, passing=key.passing and not (outermost or beside)))
+        if key.passing and (
+            outermost or any(other.state is not None for other in keys[i - 1 : i + 2])
+        ):
+            key = replace(key, passing=False)
+        out.append(key)
     return out

@@ -11,8 +11,8 @@ OVERSHOOT = 0.3
 """How far a curve may leave the range of the nearest four samples, as a share of that range."""
 
 
-def curve_through(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:
-    """Return the curve of minimum jerk through samples in time, still at the first and the last.
+class MinimumJerkCurve:
+    """The curve of minimum jerk through samples in time, still at the first and the last.
 
     Among all curves y through the samples whose velocity and acceleration are zero at both ends it
     has the least ∫ |y‴|² dt (Flash and Hogan 1985, there with one via point). Its pieces are of
@@ -22,21 +22,24 @@ def curve_through(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> Array:
     A coordinate that would overshoot its samples by more than `OVERSHOOT` gets the velocities of
     Fritsch and Butland (1984) and no acceleration at the inner knots instead; it then has two
     continuous derivatives. This happens where two samples lie close to a stop.
-
-    Args: knots: (n,) increasing seconds, n ≥ 2. values: (n, d). at: (m,) inside the knots.
-    Returns: (m, d).
     """
-    x: Array = np.asarray(knots, dtype=np.float64)
-    y: Array = np.asarray(values, dtype=np.float64)
-    u: Array = np.asarray(at, dtype=np.float64)
-    velocity, acceleration = np.zeros_like(y), np.zeros_like(y)
-    if len(x) > 2:
-        velocity[1:-1], acceleration[1:-1] = _minimum_jerk_derivatives(x, y)
-        overshooting = _overshoots(x, y, velocity, acceleration)
-        velocity[:, overshooting] = _monotone_velocities(x, y[:, overshooting])
-        acceleration[:, overshooting] = 0.0
-    k = np.clip(np.searchsorted(x, u, side="right") - 1, 0, len(x) - 2)
-    return _quintic(x, y, velocity, acceleration, k, u)
+
+    def __init__(self, knots: ArrayLike, values: ArrayLike) -> None:
+        """Args: knots: (n,) increasing seconds, n ≥ 2. values: (n, d)."""
+        x = self._x = np.asarray(knots, dtype=np.float64)
+        y = self._y = np.asarray(values, dtype=np.float64)
+        velocity, acceleration = self._velocity, self._acceleration = np.zeros((2, *y.shape))
+        if len(x) > 2:
+            velocity[1:-1], acceleration[1:-1] = _minimum_jerk_derivatives(x, y)
+            overshooting = _overshoots(x, y, velocity, acceleration)
+            velocity[:, overshooting] = _monotone_velocities(x, y[:, overshooting])
+            acceleration[:, overshooting] = 0.0
+
+    def __call__(self, at: ArrayLike) -> Array:
+        """Return values at times (m,) inside the knots, (m, d)."""
+        x, u = self._x, np.asarray(at, dtype=np.float64)
+        k = np.clip(np.searchsorted(x, u, side="right") - 1, 0, len(x) - 2)
+        return _quintic(x, self._y, self._velocity, self._acceleration, k, u)
 
 
 def _minimum_jerk_derivatives(x: Array, y: Array) -> tuple[Array, Array]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -82,7 +82,7 @@ class KeyPostureSolver:
         current = np.where(mask, playing.values[0], current)
         solver = _round_what_is_played(self.solver, mask)
         owned = frozenset(n for block in self.recorded if block.plays(time) for n in block.limbs)
-        returning = self._returning(time, tasks)
+        returning = self._returning(time, self._released_with(tasks))
         answer: tuple[tuple[Task, ...], SolveReport] | None = None
         if self.last is not None and not returning:
             reused = self._reused(self.last, tasks, ik_tasks, changing, current)
@@ -116,13 +116,11 @@ class KeyPostureSolver:
 
     def accept(self, posture: KeyPosture) -> KeyPosture:
         """Make a posture the one that the next is solved after."""
-        returning = (
-            frozenset[str]()
-            if posture.reused
-            else self._returning(posture.time, posture.timed_tasks)
-        )
         released = self._released_with(posture.timed_tasks)
-        self._released = {limb: since for limb, since in released.items() if limb not in returning}
+        if not posture.reused:
+            for limb in self._returning(posture.time, released):
+                del released[limb]
+        self._released = released
         self.current = np.array(posture.coordinates)
         self.neutral.record(posture)
         self.last = posture
@@ -182,7 +180,7 @@ class KeyPostureSolver:
                     out[limb] = max(end, out.get(limb, end))
         return out
 
-    def _returning(self, time: Fraction, tasks: Sequence[TimedTask]) -> frozenset[str]:
+    def _returning(self, time: Fraction, released: Mapping[str, Fraction]) -> frozenset[str]:
         """Return released limbs that have had the time to return; their posture is solved anew.
 
         So a head that a glance has bent comes up again though its chin is still raised.
@@ -190,7 +188,7 @@ class KeyPostureSolver:
         neutral = self.neutral.posture
         return frozenset(
             limb
-            for limb, since in self._released_with(tasks).items()
+            for limb, since in released.items()
             for members in (self.limbs.members[limb],)
             if time - since >= transition_s(self.current[members], neutral[members])
         )

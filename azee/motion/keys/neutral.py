@@ -22,6 +22,8 @@ SELF_RETURNING = frozenset((TRUNK, "head", "eyes"))
 """Limbs that return as soon as no task moves them, though tasks read them: a hand on the forehead
 follows the head back."""
 
+_DIRECT_WITHIN_S = Fraction(DIRECT_WITHIN_S)
+
 
 @dataclass(slots=True)
 class ReturnToNeutral:
@@ -97,9 +99,10 @@ class ReturnToNeutral:
             since = self._moved.get(limb, needed)
             starts = self._starts[limb]
             i = bisect_right(starts, since)
-            needed_soon = i < len(starts) and starts[i] - since <= DIRECT_WITHIN_S
+            needed_soon = i < len(starts) and starts[i] - since <= _DIRECT_WITHIN_S
             members = self.limbs.members[limb]
             needs_s = transition_s(current[members], self.posture[members])
             return not needed_soon and time - since >= needs_s
-        held = any(last.holds(limb, t.used_limbs) for t in going_on)
-        return time - needed > DIRECT_WITHIN_S and not held
+        if time - needed <= _DIRECT_WITHIN_S:
+            return False
+        return not any(last.holds(limb, t.used_limbs) for t in going_on)

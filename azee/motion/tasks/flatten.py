@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import count, repeat
 from typing import TypeAlias
 
 from azee.motion.tasks.interval_index import IntervalIndex
@@ -74,10 +75,8 @@ def flatten(score: Score) -> Timeline:
     for leaf in found:
         for depth in range(len(leaf.path) + 1):
             inside.setdefault(leaf.path[:depth], []).append(leaf)
-    required: list[Requirement] = []
-    for leaf in found:
-        for requirement in _required(leaf, inside, ()):
-            required.append(replace(requirement, rank=len(required)))
+    ranks = count()
+    required = [r for leaf in found for r in _required(leaf, inside, (), ranks)]
     times = sorted({t for leaf in found for t in (leaf.interval.start, leaf.interval.end)})
     in_force = IntervalIndex((r.interval, r) for r in required)
     keyframes = tuple(Keyframe(t, tuple(in_force.at(t))) for t in times)
@@ -94,23 +93,27 @@ _Inside: TypeAlias = Mapping[tuple[str, ...], Sequence[Leaf]]
 
 
 def _required(
-    leaf: Leaf, inside: _Inside, holding: tuple[tuple[str, ...], ...]
+    leaf: Leaf, inside: _Inside, holding: tuple[tuple[str, ...], ...], ranks: Iterator[int]
 ) -> Iterator[Requirement]:
     match leaf.score:
         case Key(constraints=constraints, manner=manner):
             for constraint in constraints:
                 yield Requirement(
-                    constraint, leaf.path, _rule(leaf), leaf.interval, leaf.interval, rank=0,
-                    manner=manner,
+                    constraint, leaf.path, _rule(leaf), leaf.interval, leaf.interval,
+                    rank=next(ranks), manner=manner,
                 )  # fmt: skip
         case Hold():
-            yield from _held(leaf, leaf.score, inside, holding)
+            yield from _held(leaf, leaf.score, inside, holding, ranks)
         case Blank() | Recorded():
             pass
 
 
 def _held(
-    leaf: Leaf, hold: Hold, inside: _Inside, holding: tuple[tuple[str, ...], ...]
+    leaf: Leaf,
+    hold: Hold,
+    inside: _Inside,
+    holding: tuple[tuple[str, ...], ...],
+    ranks: Iterator[int],
 ) -> Iterator[Requirement]:
     """Extend the requirements of those leaves of the held block that last until its end.
 
@@ -123,13 +126,14 @@ def _held(
     for other in inside.get((*leaf.path[:-1], block.name), ()):
         if other.interval.end != end:
             continue
-        for requirement in _required(other, inside, (*holding, leaf.path)):
+        for requirement in _required(other, inside, (*holding, leaf.path), repeat(0)):
             if not isinstance(requirement.constraint, Trill | Transpath):
                 yield replace(
                     requirement,
                     path=leaf.path,
                     rule=_rule(leaf),
                     interval=leaf.interval,
+                    rank=next(ranks),
                     held_channels=(*requirement.held_channels, hold.channels),
                 )
 

@@ -93,8 +93,9 @@ class Limbs:
     of_coordinate: NDArray[np.int64]
 
     @staticmethod
+    @lru_cache(maxsize=16)
     def of(coordinates: Coordinates) -> Limbs:
-        """Group a rig's coordinates; limbs stand in the order of their first coordinate."""
+        """Group a rig's coordinates, once; limbs stand in the order of their first coordinate."""
         each = [limb_of_coordinate(name) for name in coordinates.names]
         names = tuple(dict.fromkeys(each))
         return Limbs(names, np.array([names.index(limb) for limb in each], dtype=np.int64))
@@ -106,8 +107,12 @@ class Limbs:
 
     def touching(self, coordinates: Iterable[int]) -> frozenset[str]:
         """Limbs that own any of the coordinates."""
-        indices = np.fromiter(coordinates, dtype=np.int64)
-        return frozenset(self.names[i] for i in {*self.of_coordinate[indices].tolist()})
+        return frozenset(self._limb_names[v] for v in coordinates)
+
+    @cached_property
+    def _limb_names(self) -> tuple[str, ...]:
+        """The limb of every coordinate, by name."""
+        return tuple(self.names[i] for i in self.of_coordinate.tolist())
 
 
 def limb_of_constraint(constraint: Constraint, binding: Binding) -> str:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from azee.motion.tasks.flatten import Timeline
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import CARRIERS, Limbs, channels_of_constraint, limb_of_constraint
 from azee.motion.tasks.recordings import RecordedBlock, recorded_blocks
-from azee.motion.tasks.requirement import Requirement
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.rig import Rig
 from azee_solver.anatomy import anatomy
@@ -125,10 +124,15 @@ def bind(
         constraint = requirement.constraint
         if not binding.has(constraint):
             continue
-        kept = channels_of_constraint(constraint, binding)
-        if any(kept.isdisjoint(channels) for channels in requirement.held_channels):
-            continue
-        task = _timed_task(requirement, rig, binding, limbs)
+        if requirement.held_channels:
+            kept = channels_of_constraint(constraint, binding)
+            if any(kept.isdisjoint(channels) for channels in requirement.held_channels):
+                continue
+        on_body = _read(constraint, binding, limbs)
+        task = TimedTask(
+            requirement, on_body.limb, on_body.moves, on_body.reads, on_body.limbs,
+            on_body.read_limbs, on_body.dynamic,
+        )  # fmt: skip
         facial = isinstance(constraint, Morph) and not binding.is_skeletal(constraint)
         accent = layered and is_accent(task)
         outside_postures = isinstance(constraint, Transpath | Trill) or facial or accent
@@ -156,10 +160,23 @@ def is_accent(task: TimedTask) -> bool:
     return task.limb in CARRIERS or constraint.bone.name == "clav"
 
 
-def _timed_task(requirement: Requirement, rig: Rig, binding: Binding, limbs: Limbs) -> TimedTask:
-    constraint = requirement.constraint
+@dataclass(frozen=True, slots=True)
+class _Reading:
+    """What a constraint reads and moves on a body: the fields of `TimedTask` of these names."""
+
+    limb: str
+    moves: frozenset[int]
+    reads: frozenset[int]
+    limbs: frozenset[str]
+    read_limbs: frozenset[str]
+    dynamic: bool
+
+
+@lru_cache(maxsize=4096)
+def _read(constraint: Constraint, binding: Binding, limbs: Limbs) -> _Reading:
+    """Return what a constraint reads and moves; it comes again in every round and text."""
     limb = limb_of_constraint(constraint, binding)
-    body = anatomy(rig.chain, rig.coordinates)
+    body = anatomy(binding.rig.chain, binding.rig.coordinates)
     moves, affected = frozenset[int](), frozenset[int]()
     if not isinstance(constraint, Morph):
         reading = footprint(_posture_equivalent(constraint), binding)
@@ -176,9 +193,7 @@ def _timed_task(requirement: Requirement, rig: Rig, binding: Binding, limbs: Lim
             dynamic = has_swing(vector)
         case Morph() | Trill() | Rotate() | Transpath():
             dynamic = False
-    return TimedTask(
-        requirement, limb, moves, reads, limbs.touching(moves), limbs.touching(reads), dynamic
-    )
+    return _Reading(limb, moves, reads, limbs.touching(moves), limbs.touching(reads), dynamic)
 
 
 _HEAD_AND_EYES = ("head", "eyes")

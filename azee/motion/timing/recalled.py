@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
 from fractions import Fraction
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -84,13 +84,18 @@ def _waiting(
             inner = (*around, (path, score, start))
             yield from _waiting(block.score, (*path, block.name), begins, inner)
     elif isinstance(score, Key):
-        for was in (w for c in score.constraints for w in _wases(c) if w.at is None):
+        for was in (w for c in score.constraints for w in _points_as_they_were(c) if w.at is None):
             for depth, (outer, group, begins) in reversed([*enumerate(around)]):
                 names = {block.name for block in group.blocks}
                 if was.block in names and path[depth] != was.block:
                     end = begins + group.block(was.block).interval_in_parent.end
                     yield _Waiting(path, was, (*outer, was.block), end)
                     break
+
+
+@lru_cache(maxsize=4096)
+def _points_as_they_were(constraint: Constraint) -> tuple[Was, ...]:
+    return tuple(_wases(constraint))
 
 
 def _wases(node: object) -> Iterator[Was]:
@@ -120,7 +125,7 @@ def _rebuilt(
 
 
 def _without_waiting(path: Path, found: tuple[Constraint, ...]) -> tuple[Constraint, ...]:
-    return tuple(c for c in found if all(w.at is not None for w in _wases(c)))
+    return tuple(c for c in found if all(w.at is not None for w in _points_as_they_were(c)))
 
 
 def _with_places(

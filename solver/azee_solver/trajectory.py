@@ -16,7 +16,7 @@ ahead into frames that the next one solves again.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -103,7 +103,8 @@ class Trajectory:
     that its terms hang on, with all nodes moving. of_frame: (T,) each frame's, an index.
     reference, keep: (T, V) radians and cost of a squared radian. fixed: (T, V) coordinates that
     stay at the reference. smooth, lower, upper: (V,) s_v and the limits. overlap: cost of a
-    squared metre of overlap.
+    squared metre of overlap. near_limits: (T, V) how far inside the limits coordinates stay,
+    radians, unless something is missed by that; nothing by default.
     """
 
     programs: Sequence[Program]
@@ -116,6 +117,7 @@ class Trajectory:
     upper: Array
     overlap: float
     refilled: Refilling
+    near_limits: Array | None = None
 
     def solve(self, fps: float) -> Array:
         """Return the postures (T, V) that lower F, inside the limits."""
@@ -143,24 +145,42 @@ class Trajectory:
         bands = _difference_bands(T)
         misses, result = np.empty((2, T)), np.empty(2)
 
-        def take(stage: Stage, refills: Refills) -> float:
+        def take(stage: Stage, refills: Refills, lower: Array, upper: Array) -> float:
             """Take a stage's steps; return the largest miss that is left, in tolerances."""
             options = np.array([stage.misses, stage.overlaps * self.overlap, stage.tolerance, 1e-4])
             _PROJECT(
                 T, n, weights.shape[1], refills.entries.shape[1], ORDER, stage.steps, blocks,
                 x, reference, keep, weights, refills.counts, refills.entries, refills.numbers,
-                bands, self.smooth, self.lower, self.upper, fixed, options, *room.reals,
+                bands, self.smooth, lower, upper, fixed, options, *room.reals,
                 misses[0], result, *room.integers[:3], misses[1], room.integers[3],
             )  # fmt: skip
             return math.sqrt(float(misses[0].max(initial=0.0)))
 
-        refills = self.refilled(frames, x)
-        if take(LOOK, refills) > NEAR:
-            take(SOFT, refills)
+        for limits in self._limits(rows, x[:solved]):
+            x[solved:] = np.clip(start[solved:], *limits)
             refills = self.refilled(frames, x)
-        if take(WHOLE, refills) > MET_SHARE:
-            take(FIRM, self.refilled(frames, x))
+            if take(LOOK, refills, *limits) > NEAR:
+                take(SOFT, refills, *limits)
+                refills = self.refilled(frames, x)
+            if take(WHOLE, refills, *limits) <= MET_SHARE:
+                break
+            if take(FIRM, self.refilled(frames, x), *limits) <= MET_SHARE:
+                break
         return x
+
+    def _limits(self, rows: slice, before: Array) -> Iterator[tuple[Array, Array]]:
+        """Yield the limits to try in some frames, (V,) each: those inside, and the limits.
+
+        What comes nearer to its limits in the frames before, which are solved, has all its room: it
+        would jump.
+        """
+        if self.near_limits is not None:
+            least = self.near_limits[rows].min(axis=0)
+            lower, upper = self.lower + least, self.upper - least
+            inside = np.all((lower <= before) & (before <= upper), axis=0) & (least > 0.0)
+            if inside.any():
+                yield np.where(inside, lower, self.lower), np.where(inside, upper, self.upper)
+        yield self.lower, self.upper
 
 
 @dataclass(frozen=True, slots=True, eq=False)

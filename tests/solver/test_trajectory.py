@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
@@ -143,6 +144,19 @@ def test_fixed_coordinates_and_limits_are_kept() -> None:
     assert np.all(q[:, elbow] == rig().coordinates.idle[elbow])
     assert np.all(q >= rig().coordinates.lower)
     assert np.all(q <= rig().coordinates.upper)
+
+
+def test_coordinates_stay_inside_their_limits_unless_something_is_missed_by_that() -> None:
+    limits = rig().coordinates
+    problem = trajectory([HELD] * 8, [program(), program(NEAR)], 1.0)
+    q = problem.solve(FPS)
+    room = np.minimum(q - limits.lower, limits.upper - q).min(axis=0)
+    some = np.clip(room - math.radians(1), 0.0, math.radians(10))
+    kept = replace(problem, near_limits=np.tile(some, (8, 1))).solve(FPS)
+    assert np.all((kept >= limits.lower + some) & (kept <= limits.upper - some))
+    too_much = np.minimum(room + math.radians(10), 0.45 * (limits.upper - limits.lower))
+    needed = replace(problem, near_limits=np.tile(too_much, (8, 1))).solve(FPS)
+    assert np.linalg.norm(tip(needed) - target(NEAR), axis=1).max() < 1e-3
 
 
 def test_windows_join_without_a_seam() -> None:

@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from azee.motion.keys.residual_monitor import ResidualMonitor
 from azee.motion.keys.transpath import AnchoredPath
+from azee.motion.projection.refilled_targets import Moving, Numbers, OnPath, RefilledTargets
+from azee.motion.tasks.key_posture import KeyPosture
 from azee.motion.tasks.limbs import CARRIERS, TRUNK, is_finger, limb_of_coordinate
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
@@ -26,14 +28,13 @@ from azee_solver.anatomy import anatomy
 from azee_solver.body import Body
 from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Morph, Place
-from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import SitePoint
 from azee_solver.options import SolveOptions
 from azee_solver.program import Cost, Program, used_entries
 from azee_solver.residuals import lower
 from azee_solver.tape import Tape
 from azee_solver.task import Task
-from azee_solver.trajectory import ORDER, SMOOTH_S, Refills, Trajectory
+from azee_solver.trajectory import ORDER, SMOOTH_S, Trajectory
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -57,15 +58,20 @@ _SOMEWHERE = np.array([0.123456, 1.0, 0.5])
 """Stands for the target of a path until it is filled in; metres."""
 
 
+NEAR_LIMIT_RAD = math.radians(1.1)
+"""How far inside their limits joints stay, as people rarely hold one at its stop."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class FrameProblems:
     """Makes the trajectory problem of a movement.
 
-    factors: of the weights of tasks, by rank, where not 1.
+    factors: of the weights of tasks, by rank, where not 1. postures: all key postures.
     """
 
     monitor: ResidualMonitor
     factors: Mapping[int, float]
+    postures: Sequence[KeyPosture]
     options: SolveOptions
 
     def trajectory(
@@ -91,7 +97,7 @@ class FrameProblems:
         target = np.clip(reference, coordinates.lower, coordinates.upper)
         of_frame = np.empty(len(times), dtype=np.int64)
         programs: list[Program] = []
-        moving: list[_Moving] = []
+        moving: list[Moving] = []
         for now, rows in self._in_force(times):
             problem = self._lay_out(now, times[rows[0]])
             of_frame[rows] = len(programs)
@@ -108,12 +114,33 @@ class FrameProblems:
                 keep[rows, v] = np.maximum(keep[rows, v], (YIELD_SHARE * bound) ** -2)
             moving += self._paths(problem, rows, times)
             moving += self._moving_targets(problem, rows, times, reference)
+        seconds = np.array([float(time) for time in times])
         smooth = free_keep * (SMOOTH_S * fps) ** (2 * ORDER)
-        refilling = _Refilling.of(self.monitor.evaluator, moving)
+        refilling = RefilledTargets.of(self.monitor.evaluator, moving)
         return Trajectory(
             programs, of_frame, target, keep, fixed, smooth, coordinates.lower, coordinates.upper,
-            self.options.overlap, refilling,
+            self.options.overlap, refilling, self._near_limits(seconds, fixed),
         )  # fmt: skip
+
+    def _near_limits(self, seconds: Array, fixed: Mask) -> Array:
+        """Return how far inside the limits coordinates stay, (T, V) radians.
+
+        That is nothing where a key posture is nearer, where coordinates are fixed, and while a
+        constraint is in force that a key posture misses or eases.
+        """
+        limits = self.monitor.evaluator.rig.coordinates
+        names = [limb_of_coordinate(name) for name in limits.names]
+        bodily = np.array([not is_finger(limb) and limb != "eyes" for limb in names])
+        q = np.stack([limits.idle, *(posture.coordinates for posture in self.postures)])
+        inside = np.minimum(q - limits.lower, limits.upper - q).min(axis=0) > NEAR_LIMIT_RAD
+        out = np.where(bodily & inside & ~fixed, NEAR_LIMIT_RAD, 0.0)
+        answers = (c for posture in self.postures for c in posture.report.constraints)
+        unmet = {answer.task.constraint for answer in answers if not answer.met}
+        for task in self.monitor.schedule.posture_tasks if unmet else ():
+            if task.constraint in unmet:
+                rows = self.monitor.rows_inside(task, seconds)
+                out[rows.start : rows.stop] = 0.0
+        return out
 
     def _in_force(self, times: Sequence[Fraction]) -> list[tuple[_InForce, list[int]]]:
         """Return what holds together in frames, and in which."""
@@ -216,16 +243,16 @@ class FrameProblems:
 
     def _paths(
         self, problem: _Problem, rows: Sequence[int], times: Sequence[Fraction]
-    ) -> Iterable[_OnPath]:
+    ) -> Iterable[OnPath]:
         """Yield the sites on paths in frames that share a program."""
         for i, path in enumerate(problem.now.paths):
             row = problem.program.rows[problem.runs[len(problem.now.tasks) + i][0]]
             progress = np.array([path.motion.progress(times[t]) for t in rows])
-            yield _OnPath(path, row.b, np.array(rows), progress)
+            yield OnPath(path, row.b, np.array(rows), progress)
 
     def _moving_targets(
         self, problem: _Problem, rows: Sequence[int], times: Sequence[Fraction], q: Array
-    ) -> Iterable[_Numbers]:
+    ) -> Iterable[Numbers]:
         """Yield what differs in the tapes of frames with moving targets."""
         moving = [i for i, task in enumerate(problem.now.tasks) if task.dynamic]
         if not moving:
@@ -243,88 +270,7 @@ class FrameProblems:
         differs = np.any(np.stack(numbers) != problem.program.tape_numbers, axis=(0, 2))
         differs[on_paths] = False
         for t, of_frame in zip(rows, numbers, strict=True):
-            yield _Numbers(t, np.flatnonzero(differs), of_frame[differs])
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _OnPath:
-    """A site on a path: which entry its target is, and how far it is in which frames, (R,)."""
-
-    path: AnchoredPath
-    entry: int
-    frames: NDArray[np.int64]
-    progress: Array
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Numbers:
-    """Entries (m,) and numbers (m, 5) of a frame, the same for all postures."""
-
-    frame: int
-    entries: NDArray[np.int64]
-    numbers: Array
-
-
-_Moving = _OnPath | _Numbers
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Refilling:
-    """Fills in the targets that move.
-
-    numbers: by frame. paths: sites on paths, whose frames lie between `spans`, (P, 2), both ends
-    included.
-    """
-
-    evaluator: Evaluator
-    numbers: Mapping[int, Sequence[_Numbers]]
-    paths: Sequence[_OnPath]
-    spans: NDArray[np.int64]
-
-    @staticmethod
-    def of(evaluator: Evaluator, moving: Iterable[_Moving]) -> _Refilling:
-        """Sort what moves by its frames."""
-        numbers: dict[int, list[_Numbers]] = {}
-        paths = []
-        for each in moving:
-            if isinstance(each, _Numbers):
-                numbers.setdefault(each.frame, []).append(each)
-            else:
-                paths.append(each)
-        spans = np.array([(p.frames[0], p.frames[-1]) for p in paths], dtype=np.int64)
-        return _Refilling(evaluator, numbers, paths, spans.reshape(-1, 2))
-
-    def __call__(self, frames: range, q: Array) -> Refills:
-        """Return the refills of some frames, in which the body has the postures q (T, V)."""
-        found: list[list[tuple[int, Array]]] = [
-            [
-                pair
-                for n in self.numbers.get(t, ())
-                for pair in zip(n.entries, n.numbers, strict=True)
-            ]
-            for t in frames
-        ]
-        near = (self.spans[:, 0] < frames.stop) & (frames.start <= self.spans[:, 1])
-        body: Frames | None = None
-        for k in np.flatnonzero(near).tolist():
-            path = self.paths[k]
-            inside = (frames.start <= path.frames) & (path.frames < frames.stop)
-            here = path.frames[inside] - frames.start
-            if not len(here):
-                continue
-            body = body or kinematics.frames(self.evaluator.rig.chain, q)
-            then = Frames(body.positions[here], body.rotations[here])
-            numbers = np.zeros((len(here), 5))
-            numbers[:, :3] = path.path.targets_at(path.progress[inside], then, self.evaluator)
-            for row, target in zip(here.tolist(), numbers, strict=True):
-                found[row].append((path.entry, target))
-        counts = np.array([len(f) for f in found], dtype=np.int64)
-        places = np.zeros((len(found), max(1, int(counts.max(initial=0)))), dtype=np.int64)
-        filled = np.zeros((*places.shape, 5))
-        for row, entries_of_row in enumerate(found):
-            for j, (entry, target) in enumerate(entries_of_row):
-                places[row, j], filled[row, j] = entry, target
-        return Refills(counts, places, filled)
+            yield Numbers(t, np.flatnonzero(differs), of_frame[differs])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

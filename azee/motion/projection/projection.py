@@ -68,7 +68,7 @@ def on_living_body(planned: Plan, reference: Reference, seed: int | None) -> Pla
 def project(planned: Plan, reference: Reference, fps: float) -> Array:
     """Return the movement (T, V) nearest to a reference that meets what is in force, smoothly."""
     factors = {**_weights_beside_recordings(planned), **_weights_of_unmet(planned)}
-    problems = FrameProblems(planned.monitor, factors, SolveOptions())
+    problems = FrameProblems(planned.monitor, factors, planned.postures, SolveOptions())
     problem = problems.trajectory(
         reference.times, reference.q, reference.accented, reference.played, fps
     )

@@ -124,7 +124,7 @@ def swept(rig: Rig, kind: str, sweep: int) -> Iterator[tuple[float, SolveReport]
     frames = rig.chain.frames(idle)
     shoulder = frames.positions[rig.bones["arm_R"].origin_node]
     reach = stretched_m(rig, "I_TIP_R" if kind == "fingertip" else "PA_R")
-    wide = SolveOptions(explain=False)
+    wide = SolveOptions()
     near = replace(wide, far=False, patience=0, inertia=INERTIA)
     start, options = idle, wide
     for target in line(rig, sweep):

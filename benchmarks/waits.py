@@ -118,7 +118,10 @@ def solving(found: Score, rig: Rig) -> float:
 
 def explaining(found: Score, rig: Rig) -> float:
     """Return the time for finding the reasons of a score's missed constraints."""
-    return perform(found, rig).report.explain_s
+    report = perform(found, rig).report
+    for result in report.constraints:
+        assert result.met or result.reason or result.price
+    return report.explain_s
 
 
 def main(_: Sequence[str] = ()) -> None:

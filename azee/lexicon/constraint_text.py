@@ -9,7 +9,7 @@ from azee.lexicon.places import Place
 from azee.lexicon.vectors import Vector, is_close, length
 
 WITHIN_DEGREES = 24
-WITHIN_M = 0.02
+WITHIN_M = 0.028
 """How far off a hand may be that stays where it is."""
 NEAR_SKIN_M = 0.003
 """How far a hand that touches may be from a point between sites of the other hand, which is near
@@ -49,7 +49,7 @@ def place_text(hand: Hand, name: str, *, stays: bool) -> list[str]:
         text += " 'contact"
     elif place.touches:
         text += f" 'contact 'within {number(NEAR_SKIN_M)}"
-    elif place.is_space and stays:
+    elif place.is_space:
         text += f" 'within {number(WITHIN_M)}"
     return [text]
 

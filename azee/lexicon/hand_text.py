@@ -48,14 +48,14 @@ _THUMBS: Mapping[str | None, Mapping[str, str]] = {
     "opposed": {},
     "across": {
         "fist": ".thumb-over-index",
-        "finger2": ".thumb-over",
+        "finger2": ".thumb-rests",
         "finger23": ".thumb-over-ring",
         "finger23spread": ".thumb-over-ring",
     },
     None: {
         "flat": ".thumb-beside",
         "finger2345": ".thumb-across",
-        "finger2": ".thumb-over",
+        "finger2": ".thumb-rests",
         "fist": ".thumb-on-index",
     },
 }
@@ -105,7 +105,7 @@ def _rule(shape: HandShape, hand: str, *, yields: bool) -> str:
         arguments.append(f"'bend = {_bend(bend)}")
     if _is_between_thumbs(shape):
         arguments.append(f"'thumb = {_yielding(_thumb_between(shape), yields=yields)}")
-    elif form.thumb:
+    elif form.thumb or form.base == "finger2":  # no point of a nail is notated, it may lie anywhere
         arguments.append(f"'thumb = {_yielding(_thumb(form), yields=yields)}")
     name = {"flat": "flathand"}.get(form.base, form.base)
     return f":#ham{name}" + (f"({', '.join(arguments)})" if arguments else "")

@@ -43,7 +43,7 @@ from azee_solver.widening import least_reach
 
 Array = NDArray[np.float64]
 
-OPTIONS = SolveOptions(far=False, patience=0, inertia=8.0, explain=False)
+OPTIONS = SolveOptions(far=False, patience=0, inertia=8.0)
 """From where the body is, without a search. With inertia 8 a posture is near the one that compiling
 finds after half a second; with 30 as along a path (ADR 26) elbows lag behind by seconds."""
 YIELDING = 0.001
@@ -124,7 +124,7 @@ class DragSolver:
             dominant=binding.dominant,
             start=start,
             reference=self._reference(moved),
-            options=replace(OPTIONS, inertia=0.0, precise=False, explain=True),
+            options=replace(OPTIONS, inertia=0.0, precise=False),
         )
         q = np.array(report.coordinates)
         said = {id(c.task.constraint): c.reason for c in report.constraints if c.reason}

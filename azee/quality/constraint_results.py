@@ -168,7 +168,7 @@ def _reason(task: TimedTask, plan: Plan, residual: float) -> str:
             f"ends early, at {float(early.time):.3f} s: {'/'.join(early.successor)} "
             "starts at the instant this ends and needs another posture"
         )
-    missed = [answer for answer in _answers(task, plan) if answer.reason is not None]
+    missed = [answer for answer in _answers(task, plan) if answer.missed]
     if missed:
         return str(max(missed, key=lambda answer: answer.residual).reason)
     if not math.isfinite(residual):

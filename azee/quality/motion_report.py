@@ -115,11 +115,12 @@ class MotionReport:
 
     @property
     def explain_s(self) -> float:
-        """Time spent finding the reasons of unmet constraints."""
+        """Time spent so far finding the reasons of missed constraints."""
         return float(sum(p.report.explain_s for p in self.postures if not p.reused))
 
     def as_json(self) -> dict[str, object]:
         """Return the report as plain data."""
+        constraints = [c.as_json() for c in self.constraints]  # asks for reasons, which takes time
         return {
             "rig": self.rig,
             "fps": self.fps,
@@ -136,7 +137,7 @@ class MotionReport:
             "evaluations": self.evaluations,
             "solve_s": self.solve_s,
             "explain_s": self.explain_s,
-            "constraints": [c.as_json() for c in self.constraints],
+            "constraints": constraints,
             "strains": [{"time_s": time, **strain.as_json()} for time, strain in self.strains],
             "limits": {"max_excess_rad": self.max_excess_rad, "joint": self.excess_joint},
             "penetration": [row for p in self.postures for row in _penetration(p)],

@@ -43,7 +43,7 @@ class Answer:
 
 Method = Callable[[Rig, Problem], Answer]
 
-FULL = SolveOptions(explain=False)
+FULL = SolveOptions()
 APART = replace(FULL, overlap=0.0, overlap_m=math.inf)
 BARE = replace(APART, posture=0.0, comfort=0.0)
 STARTS = 10

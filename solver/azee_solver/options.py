@@ -39,8 +39,6 @@ class SolveOptions:
     """Whether a search that fails goes on around the body and with straight arms."""
     patience: int = 6
     """Descents in a row that gain nothing and end a search."""
-    explain: bool = True
-    """Whether to find out why a constraint is missed, by solving smaller problems."""
     precise: bool = True
     """Whether to meet constraints at any price of comfort. Movements of azee do not by default."""
     fixed: frozenset[int] = frozenset()

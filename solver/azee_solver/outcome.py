@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
@@ -45,6 +47,34 @@ class Price:
 
 
 FREE = Price()
+
+
+class Reason:
+    """Why a constraint is missed, found when it is first asked for, as that takes solving.
+
+    A pickle holds the words, not what they are found with.
+    """
+
+    def __init__(self, find: Callable[[], str]) -> None:
+        """Take what finds the phrase."""
+        self._find: Callable[[], str] | None = find
+        self._text = ""
+        self.spent_s = 0.0
+        """Wall-clock time that finding it has taken so far."""
+
+    @property
+    def text(self) -> str:
+        """The reason, in one phrase."""
+        if self._find is not None:
+            began = time.perf_counter()
+            self._text = self._find()
+            self._find = None
+            self.spent_s = time.perf_counter() - began
+        return self._text
+
+    def __getstate__(self) -> dict[str, object]:
+        """Return the words."""
+        return {"_find": None, "_text": self.text, "spent_s": self.spent_s}
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,6 @@ together, the search has left a part of the body still that would have to move.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -38,10 +37,7 @@ AT_LIMIT_RAD = 1e-6
 
 
 class Diagnosis:
-    """Reasons for the constraints of one moment, given the posture that was found.
-
-    spent_s: how long they have taken to find so far.
-    """
+    """Reasons for the constraints of one moment, given the posture that was found."""
 
     def __init__(
         self,
@@ -55,7 +51,6 @@ class Diagnosis:
         self.moved = moved
         self.tasks, self.footprints, self.q = tasks, footprints, q
         self.body = body
-        self.spent_s = 0.0
         self._own_misses: dict[int, float] = {}
 
     @cached_property
@@ -70,12 +65,6 @@ class Diagnosis:
 
     def reason(self, i: int, miss: float, undefined: bool) -> str:
         """Return why task i, which is off by `miss` tolerances, is not met, in one phrase."""
-        began = time.perf_counter()
-        found = self._reason(i, miss, undefined)
-        self.spent_s += time.perf_counter() - began
-        return found
-
-    def _reason(self, i: int, miss: float, undefined: bool) -> str:
         constraint = self.tasks[i].constraint
         if undefined:
             return "its direction is undefined: a vector in it has no length"

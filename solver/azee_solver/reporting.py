@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from azee_solver.body import Body
 from azee_solver.constraint import Morph, Transpath, Trill
 from azee_solver.moment import Moment
 from azee_solver.notation import constraint_text
-from azee_solver.outcome import Price, Strain
+from azee_solver.outcome import Price, Reason, Strain
 from azee_solver.reasons import Diagnosis
 from azee_solver.solution import Solution
 from azee_solver.solve_report import ConstraintReport, ProblemReport, SolveReport
@@ -40,17 +41,15 @@ def report(
     prices = {i: price for result in solution.results for i, price in result.eased.items()}
     constraints = tuple(_constraints(body, moment.tasks, q, diagnosis, undefined, prices))
     q.setflags(write=False)
-    explain_s = diagnosis.spent_s
     return SolveReport(
         q,
         _problems(moment, solution, spent_s),
         constraints,
         body.obstacles.overlaps(q),
         body.evaluations,
-        time.perf_counter() - began - explain_s,
+        time.perf_counter() - began,
         free | frozenset(body.presets) - body.options.fixed,
-        explain_s,
-        tuple(_strains(moment, solution)),
+        strains=tuple(_strains(moment, solution)),
     )
 
 
@@ -77,14 +76,12 @@ def _constraints(
         residual, unit = measure.residual(constraint, frames, q, task.phase, asked)
         tolerance = body.options.tolerance.of(constraint)
         met, price = bool(residual <= tolerance), prices.get(i)
-        why = None
+        why: str | Reason | None = None
         if price and residual > PAPER.of(constraint):
             why = f"given up for comfort: it would take {price}"
         elif not met and not price:
-            explain = body.options.explain
-            why = "not looked into"
-            if explain:
-                why = diagnosis.reason(i, float(residual) / tolerance, i in undefined)
+            miss = float(residual) / tolerance
+            why = Reason(partial(diagnosis.reason, i, miss, i in undefined))
         yield ConstraintReport(task, float(residual), unit, tolerance, met, why, price)
 
 

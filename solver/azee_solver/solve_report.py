@@ -11,7 +11,7 @@ from azee_solver.collisions import Overlap
 from azee_solver.constraint import Constraint
 from azee_solver.evaluate import LengthOrAngle
 from azee_solver.notation import problem_text, subject_text, target_text
-from azee_solver.outcome import Outcome, Price, Strain
+from azee_solver.outcome import Outcome, Price, Reason, Strain
 from azee_solver.task import Task
 
 
@@ -49,9 +49,9 @@ class ProblemReport:
 class ConstraintReport:
     """A constraint, measured on the final posture by forward kinematics outside the kernels.
 
-    residual and tolerance in `unit`; NaN where the target has no direction. reason: why it is
-    missed, else none. price: what meeting it would have cost, if comfort has eased it or given it
-    up.
+    residual and tolerance in `unit`; NaN where the target has no direction. why: it is missed, in
+    words or to be found; else none. price: what meeting it would have cost, if comfort has eased
+    it or given it up.
     """
 
     task: Task
@@ -59,7 +59,7 @@ class ConstraintReport:
     unit: LengthOrAngle
     tolerance: float
     met: bool
-    reason: str | None
+    why: str | Reason | None
     price: Price | None = None
 
     @property
@@ -68,11 +68,16 @@ class ConstraintReport:
         return self.outcome is Outcome.MISSED
 
     @property
+    def reason(self) -> str | None:
+        """Why it is missed, else none; it is found when it is first asked for."""
+        return self.why.text if isinstance(self.why, Reason) else self.why
+
+    @property
     def outcome(self) -> Outcome:
         """What became of it."""
         if self.met:
             return Outcome.MET
-        return Outcome.MISSED if self.reason is not None else Outcome.EASED
+        return Outcome.MISSED if self.why is not None else Outcome.EASED
 
     @property
     def kind(self) -> str:
@@ -92,9 +97,8 @@ class SolveReport:
     coordinates: (V,) radians, inside the limits. problems: in the order of their dependencies.
     constraints: those that joints can meet, in the order of the tasks. penetration: capsules
     that overlap beyond meant contacts, deepest first. reached: coordinates that the constraints
-    may move. solve_s, explain_s: wall-clock time of finding the posture, and of finding out why
-    some constraints miss; no other than times differs from run to run. strains: where the posture
-    is beyond the comfortable.
+    may move. solve_s: wall-clock time of finding the posture; no other than times differs from
+    run to run. strains: where the posture is beyond the comfortable.
     """
 
     coordinates: NDArray[np.float64]
@@ -104,7 +108,6 @@ class SolveReport:
     evaluations: int
     solve_s: float
     reached: frozenset[int]
-    explain_s: float = 0.0
     strains: tuple[Strain, ...] = ()
 
     @property
@@ -116,3 +119,8 @@ class SolveReport:
     def missed(self) -> bool:
         """Whether a constraint is missed: neither met nor eased."""
         return any(constraint.missed for constraint in self.constraints)
+
+    @property
+    def explain_s(self) -> float:
+        """Wall-clock time that it has taken so far to find out why constraints are missed."""
+        return sum(c.why.spent_s for c in self.constraints if isinstance(c.why, Reason))

@@ -95,7 +95,7 @@ def rest_posture(rig: Rig, rest: Rest, dominant: Side) -> Array:
             for v, name in enumerate(coordinates.names)
             if part_of(name) is not Part.ARM or name.startswith("clav")
         )
-        options = SolveOptions(fixed=fixed, far=False, patience=0, explain=False)
+        options = SolveOptions(fixed=fixed, far=False, patience=0)
         found = solve(
             rig, tasks, dominant=dominant, start=posture, reference=posture, options=options
         )

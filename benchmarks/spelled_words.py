@@ -1,4 +1,4 @@
-"""How long it takes from a word to its clip in a running process: `benchmarks/run.py spelled-words`.
+"""How long a word takes to its clip in a running process: `benchmarks/run.py spelled-words`.
 
 Words of ten letters, with the times of the model that ships. Each is spelled twice: when the
 process has spelled nothing but a few words, and again, when it has spelled all of them. As in the

@@ -28,6 +28,8 @@ MODULES = {
     "posing": "benchmarks.posing",
     "penetration": "benchmarks.penetration",
     "spelled-pairs": "benchmarks.spelled_pairs",
+    "spelled-words": "benchmarks.spelled_words",
+    "letters": "benchmarks.letters_on_bodies",
     "likeness": "benchmarks.likeness",
     "lexicon": "benchmarks.lexicon",
     "formats": "benchmarks.formats",

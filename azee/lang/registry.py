@@ -18,6 +18,7 @@ from azee.lang.operators import (
     score_changes,
     scores,
     sides,
+    spelling,
     texts,
 )
 
@@ -28,6 +29,7 @@ NATIVES: Mapping[str, Native] = {
         kinds,
         lists,
         texts,
+        spelling,
         rules,
         geometry,
         paths,

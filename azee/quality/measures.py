@@ -32,7 +32,7 @@ FINGERS_LEAST_M = 0.003
 """Shallower penetration of fingers of one hand would not be seen."""
 TOUCH_S = 0.15
 """What touches because the score asks for it may be as near this long before and after."""
-FORMED_S, FORMED_RAD = 1.0, np.radians(5.0)
+FORMED_S, FORMED_RAD = 1.0, np.radians(8.0)
 """Fingers form a hand shape while the arm still moves: those within this angle of a shape whose
 digits touch touch as it asks, this long before."""
 

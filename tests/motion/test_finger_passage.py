@@ -12,9 +12,10 @@ import pytest
 from numpy.typing import NDArray
 
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
-from azee.motion.curves.finger_passage import MOST_RAD_S, FingerPassage
+from azee.motion.curves.finger_passage import FingerPassage
 from azee.motion.curves.limb_curves import LimbCurve, LimbKey
 from azee.motion.curves.movement import Movement
+from azee.motion.curves.passage_search import MOST_RAD_S, PassageSearch
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import Limbs
 from azee.score.interval import Interval
@@ -47,6 +48,11 @@ def overlaps() -> CapsuleOverlaps:
     return CapsuleOverlaps(Evaluator(load_rig(), Side.RIGHT))
 
 
+@cache
+def search() -> PassageSearch:
+    return PassageSearch(overlaps(), load_rig().coordinates)
+
+
 def posture(shape: str) -> NDArray[np.float64]:
     coordinates = load_rig().coordinates
     q = coordinates.idle.copy()
@@ -71,7 +77,7 @@ def straight(first: str, second: str) -> Movement:
 
 
 def passed(movement: Movement, *in_use: tuple[Interval, frozenset[str]]) -> Movement:
-    found = FingerPassage(overlaps(), IntervalIndex(in_use)).via_points(movement)
+    found = FingerPassage(search(), IntervalIndex(in_use)).via_points(movement)
     return replace(movement, via_points=tuple(found))
 
 

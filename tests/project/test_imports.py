@@ -34,6 +34,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "azee.score.recorded_motion": {"azee.clip", "azee_rig"},
     "azee.score.articulators": {"azee_grammar"} | DECLARATIONS,
     "azee.lang": {"azee_grammar", "azee.score"} | DECLARATIONS,
+    "azee.lang.operators.spelling": {"azee.lang", "azee.spelling.timing"},
     "azee.batch": {
         *("azee.animation", "azee.clip", "azee.compilation", "azee.export.files", "azee.formats"),
         *("azee.lang", "azee.motion", "azee.score"),

@@ -19,13 +19,19 @@ def written(number: float) -> str:
     return format(Decimal(repr(number)), "f")
 
 
-def _letters(at: Occurrence, machine: Machine, text: str) -> Value:
+def letters_of(text: str) -> list[str]:
+    """Return the letters of a text in order; one with its accents is one."""
     letters: list[str] = []
     for character in unicodedata.normalize("NFC", text):
         if letters and unicodedata.combining(character):
             letters[-1] += character
         else:
             letters.append(character)
+    return letters
+
+
+def _letters(at: Occurrence, machine: Machine, text: str) -> Value:
+    letters = letters_of(text)
     machine.spend(len(letters), at.span)
     machine.require_size(len(letters) + 1, at.span)
     return ListValue(tuple(map(TextValue, letters)), len(letters) + 1, 2)

@@ -22,6 +22,7 @@ from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.finger_passage import FingerPassage
 from azee.motion.curves.movement import Movement
 from azee.motion.curves.offset_search import CONSIDERED_M, OffsetSearch
+from azee.motion.curves.passage_search import passage_search
 from azee.motion.curves.via_points import ViaPoint
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import CARRIERS
@@ -80,7 +81,7 @@ class CollisionAvoidance:
 
     def avoid_collisions(self, movement: Movement) -> Movement:
         """Return a movement with via points where limbs that are free could avoid a collision."""
-        fingers = FingerPassage(self.overlaps, self.limbs_in_use)
+        fingers = FingerPassage(passage_search(self.evaluator), self.limbs_in_use)
         movement = replace(movement, via_points=tuple(fingers.via_points(movement)))
         unsuccessful: set[_FreeLimbs] = set()
         times = np.arange(movement.start_s - SAMPLE_S, movement.end_s + SAMPLE_S, SAMPLE_S)

@@ -1,0 +1,213 @@
+"""The search for a way of digits round each other between two handshapes, and what it has found.
+
+Two via points of every digit that is free, an early and a late one, are sought by damped least
+squares (see `OffsetSearch`). A search that starts from straight ways alone stays on the wrong side
+of the finger. It is therefore started from several ways in which people do it (`_starts`), in the
+order of what they cost, until one leads round.
+
+What is found depends only on the hand's coordinates along the way, to `GRID_RAD`, and on how long
+the way takes, to a millisecond: the same way on the same body is searched once in a process.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.curves.capsule_overlap import CapsuleOverlaps
+from azee.motion.curves.offset_search import Offset, OffsetSearch
+from azee.motion.curves.via_points import ViaPoint
+from azee_rig.coordinates import Coordinates
+from azee_solver.evaluate import Evaluator
+
+Array = NDArray[np.float64]
+Side: TypeAlias = Literal["L", "R"]
+
+PEAKS = (0.3, 0.6)
+"""When the early and the late via point are whole, as shares of the way."""
+MOST_RAD_S, MOST_RAD_S2 = math.radians(1200.0), math.radians(40_000.0)
+"""Largest speed and acceleration that an offset adds to a joint of a finger."""
+PRICE_M = 0.002
+"""An offset of one radian costs as much as this overlap in one sample."""
+STEP_RAD = 0.35
+ENOUGH_M = 0.0005
+"""A way on which no pair lacks more is good."""
+WORTHWHILE = 0.9
+"""Offsets are used if they leave at most this share of the shortfall."""
+TRIES = 8
+"""So many starts are searched from."""
+GRID_RAD = 0.0005
+"""Ways are told apart by coordinates in steps of this: a fingertip moves by .1 mm."""
+MOST_KNOWN = 4000
+"""Ways that are remembered of a body; beyond, the oldest go."""
+
+_OPEN = {
+    **{f"{finger}_{{S}}_1.flexion": -0.35 for finger in ("index", "middle", "ring", "little")},
+    **{f"{finger}_{{S}}_2.flexion": -0.5 for finger in ("index", "middle", "ring", "little")},
+    **{f"{finger}_{{S}}_3.flexion": -0.2 for finger in ("index", "middle", "ring", "little")},
+}
+"""Fingers that let a thumb pass below them, radians."""
+_ASIDE = {"thumb_{S}_1.flexion": -0.5, "thumb_{S}_3.flexion": -0.3}
+"""A thumb beside the hand."""
+_BEFORE = {"thumb_{S}_1.abduction": 0.5, "thumb_{S}_2.flexion": -0.3, "thumb_{S}_3.flexion": -0.4}
+"""A thumb before the fingers."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hand:
+    """The pairs of capsules of one hand's digits, and the coordinates that move them."""
+
+    pairs: NDArray[np.int64]
+    coordinates: NDArray[np.int64]
+
+
+class PassageSearch:
+    """Finds offsets that lead the digits of one body round each other, and remembers them.
+
+    overlaps: of the body's capsules. hands: by side.
+    """
+
+    def __init__(self, overlaps: CapsuleOverlaps, coordinates: Coordinates) -> None:
+        self.overlaps, self._coordinates = overlaps, coordinates
+        self.hands: Mapping[Side, Hand] = {side: _hand(overlaps, side) for side in ("L", "R")}
+        self._known: dict[tuple[Side, int, bytes, bytes], Array | None] = {}
+
+    def offsets(
+        self, q: Array, members: NDArray[np.int64], span_s: float, side: Side
+    ) -> Array | None:
+        """Return the offsets of the early and the late via point, (2 n,); none if none helps.
+
+        Args: q: (T, V) at even steps of the way, ends included. members: (n,) the coordinates that
+            are free. span_s: how long the way takes.
+        """
+        own = self.hands[side].coordinates
+        steps = np.round(q[:, own] / GRID_RAD).astype(np.int32)
+        span_ms = max(1, round(1000 * span_s))
+        way = (side, span_ms, members.tobytes(), steps.tobytes())
+        if way not in self._known:
+            body = self._coordinates
+            at = np.tile(body.idle, (len(q), 1))
+            at[:, own] = np.clip(GRID_RAD * steps, body.lower[own], body.upper[own])
+            found = self._searched(at, members, span_ms / 1000, side)
+            self._known[way] = found
+            if len(self._known) > MOST_KNOWN:
+                self._known.pop(next(iter(self._known)), None)
+            return found
+        return self._known[way]
+
+    def _searched(
+        self, q: Array, members: NDArray[np.int64], span_s: float, side: Side
+    ) -> Array | None:
+        bells = via_points(members, 0.0, span_s)
+        weight = np.stack([bell.weight(np.linspace(0.0, span_s, len(q))) for bell in bells])
+        speed, acceleration = np.array([bell.fastest for bell in bells]).T
+        most = np.minimum(MOST_RAD_S / speed, MOST_RAD_S2 / acceleration)
+        search = OffsetSearch(
+            q,
+            np.tile(members, len(bells)),
+            np.repeat(weight, len(members), axis=0).T,
+            np.repeat(most, len(members)),
+            self.overlaps,
+            self.overlaps.axis_distances(()),
+            np.zeros(len(self.overlaps.pairs)),
+            PRICE_M,
+            STEP_RAD,
+            self._coordinates.lower,
+            self._coordinates.upper,
+        )
+        pairs = self.hands[side].pairs
+        depths = self.overlaps.depths(q, search.axis_distances, pairs)
+        allowed = search.allowed_depths(depths, pairs)
+        before = float(np.max(depths - allowed, initial=0.0))
+        if before <= ENOUGH_M:
+            return None
+        best: Offset | None = None
+        index = self._coordinates.index
+        starts = [
+            np.clip(start, -search.most, search.most)
+            for start in _starts(q[0, members], q[-1, members], members, index, side)
+        ]
+        for start in _by_cost(search, starts, pairs, allowed)[:TRIES]:
+            found = search.smallest(start, pairs, allowed, ENOUGH_M)
+            if best is None or found.shortfall_m < best.shortfall_m:
+                best = found
+            if best.shortfall_m <= ENOUGH_M:
+                break
+        if best is None or best.shortfall_m > WORTHWHILE * before:
+            return None
+        return best.values
+
+
+@lru_cache(maxsize=8)
+def passage_search(evaluator: Evaluator) -> PassageSearch:
+    """Return the one search of a body, which remembers what it has found."""
+    return PassageSearch(CapsuleOverlaps(evaluator), evaluator.rig.coordinates)
+
+
+def via_points(members: NDArray[np.int64], start_s: float, end_s: float) -> list[ViaPoint]:
+    """Return the early and the late via point of a way, without offsets."""
+    nothing = np.zeros(len(members))
+    return [ViaPoint(members, nothing, start_s, end_s, peak) for peak in PEAKS]
+
+
+def _hand(overlaps: CapsuleOverlaps, side: Side) -> Hand:
+    own = np.flatnonzero(overlaps.same_hand)
+    pairs = own[[f"_{side}_" in overlaps.names(pair)[0] for pair in own.tolist()]]
+    moving = {v for pair in pairs.tolist() for v in overlaps.moved_by(pair)}
+    return Hand(pairs, np.array(sorted(moving), dtype=np.int64))
+
+
+def _starts(
+    a: Array, b: Array, members: NDArray[np.int64], index: Mapping[str, int], side: str
+) -> Iterator[Array]:
+    """Yield offsets to start from, (2 n,): early and late ones of every coordinate.
+
+    Nothing; fingers that open while the thumb goes beside or before them; and each of these with
+    the thumb first or last.
+
+    Args: a, b: (n,) the coordinates at both ends.
+    """
+    column = {int(v): i for i, v in enumerate(members)}
+    thumb = np.zeros(len(members), dtype=np.bool_)
+    for name, v in index.items():
+        if name.startswith(f"thumb_{side}") and v in column:
+            thumb[column[v]] = True
+
+    def shape(*parts: Mapping[str, float]) -> Array:
+        out = np.zeros(len(members))
+        for part in parts:
+            for name, angle in part.items():
+                v = index.get(name.format(S=side), -1)
+                if v in column:
+                    out[column[v]] += angle
+        return out
+
+    turn = 0.4 * (b - a)
+    thumb_first = np.where(thumb, turn, -turn)
+    for opened in (shape(), shape(_OPEN), shape(_ASIDE), shape(_OPEN, _ASIDE),
+                   shape(_BEFORE), shape(_OPEN, _BEFORE)):  # fmt: skip
+        for early, late in ((0.7, 0.7), (1.2, 0.2), (0.2, 1.2)):
+            for order in (0.0, 1.0, -1.0):
+                way = order * thumb_first
+                yield np.concatenate([early * opened + way, late * opened + way])
+
+
+def _by_cost(
+    search: OffsetSearch, starts: Sequence[Array], pairs: NDArray[np.int64], allowed: Array
+) -> list[Array]:
+    """Return the starts in the order of what they cost, which one call measures."""
+    wanted = np.concatenate([search.offset_by(start) for start in starts])
+    q = np.clip(wanted, search.lower, search.upper)
+    depths = search.overlaps.depths(q, search.axis_distances, pairs)
+    beyond = np.maximum(depths.reshape(len(starts), *allowed.shape) - allowed, 0.0)
+    costs = [
+        float(np.sum(each**2) + search.price_m**2 * np.sum(start**2))
+        for each, start in zip(beyond, starts, strict=True)
+    ]
+    return [starts[i] for i in np.argsort(costs, kind="stable")]

@@ -8,10 +8,10 @@ BIN := $(ENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 RUN := $(BIN)/python
 READY := $(ENV)/.ready
 PACKAGES := $(patsubst %,%/node_modules/.package-lock.json,tests/node azee/web)
-TYPED := tests benchmarks examples
+TYPED := tests benchmarks examples packaging
 FIXTURES := $(wildcard tests/*/conftest.py)
 
-.PHONY: docs package release-check wheel-test-oldest wheel-test-newest web mutants families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
+.PHONY: docs package platform-wheel release-check wheel-test-oldest wheel-test-newest web mutants families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -110,9 +110,12 @@ wheel-test-newest: $(READY) node ## the same with the newest dependencies there 
 docs: $(READY) ## build the site of the documentation into out/docs, and follow its links
 	@$(RUN) docs/site/build.py --out out/docs
 
-package: $(READY) ## build the wheel and the archive of sources into out/packages
+package: $(READY) ## build the pure wheel and the archive of sources into out/packages
 	@rm -rf out/packages
 	@$(RUN) -m build --no-isolation --outdir out/packages
+
+platform-wheel: $(READY) ## build a wheel with compiled kernels too, for this platform: Linux on x86-64
+	@HATCH_BUILD_HOOK_ENABLE_CUSTOM=true $(RUN) -m build --wheel --no-isolation --outdir out/packages
 
 TAG ?=
 release-check: $(READY) ## tell whether the files agree on the version to release, and on TAG=v0.1.0

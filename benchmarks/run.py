@@ -15,6 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 MODULES = {
     "waits": "benchmarks.waits",
+    "first-run": "benchmarks.first_run",
     "language": "benchmarks.language_growth",
     "signs": "benchmarks.signs",
     "signs-db": "benchmarks.sign_database",

@@ -3,7 +3,8 @@
 numba compiles them once per machine. Importing numba and loading its cache takes longer than
 solving a sentence. So on Linux the machine code is stored here: an object file made from the
 compiled function's LLVM code, which llvmlite links in a few milliseconds. On other systems, and if
-anything of this fails, numba does it, more slowly and with the same results.
+anything of this fails, numba does it, more slowly and with the same results. A wheel that was built
+for a platform brings machine code along; see `azee_rig.ahead_of_time`.
 
 A stored file is valid for the sources that it was made from, in all their files, for one version of
 LLVM and one processor. It is written beside its place and renamed, and its checksum is verified
@@ -15,7 +16,6 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import os
-import re
 import struct
 import sys
 from collections.abc import Callable, Iterator
@@ -29,38 +29,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from azee_rig.ahead_of_time import brought
+from azee_rig.object_code import Unkept, binding, linked, object_code
+
 KEEPS = sys.platform == "linux" and struct.calcsize("P") == 8
 """Whether machine code is stored here. If not, numba stores its own."""
 
 SUM_BYTES = 32
-LIBRARY = frozenset(
-    {"abort", "atan2", "cos", "memcpy", "memmove", "memset", "sin", "sincos", "sqrt"}
-)
-"""Functions of C that kernels may call."""
-TRAPS = frozenset(
-    {
-        "NRT_Free",
-        "NRT_MemInfo_call_dtor",
-        "numba_do_raise",
-        "numba_gil_ensure",
-        "numba_gil_release",
-        "numba_runtime_build_excinfo_struct",
-        "numba_unpickle",
-    }
-)
-"""Functions of numba that every compiled function names for raising errors or freeing memory."""
 
-_DECLARED = re.compile(r'^declare (.*?@"?([\w.$]+)"?\(.*)$', re.MULTILINE)
-_EXTERNAL = re.compile(
-    r"^(@\S+ = )external (?:local_unnamed_addr )?(global|constant) ([^,\n]+)", re.M
-)
-
-
-class Unkept(Exception):  # noqa: N818 - it is no fault
-    """Machine code can neither be stored nor loaded here; numba can do it."""
-
-
-_KERNELS: list[Kernel] = []
+KERNELS: list[Kernel] = []
 """All that modules have named so far."""
 _LISTENERS: list[Callable[[int, int], None]] = []
 _COMPILED: list[str] = []
@@ -81,7 +58,7 @@ def told_of_compiling(tell: Callable[[int, int], None]) -> Iterator[None]:
 
 def _tell_of(kernel: Kernel) -> None:
     _COMPILED.append(kernel.name)
-    missing = sum(not other.is_on_disk() for other in _KERNELS)
+    missing = sum(not other.is_on_disk() for other in KERNELS)
     for tell in _LISTENERS:
         tell(len(_COMPILED), len(_COMPILED) - 1 + missing)
 
@@ -97,14 +74,17 @@ class Kernel:
         """Args: sources: modules or packages, beside its own, whose code is part of it."""
         self.module, self.name = module, name
         self._sources = (module, *sources)
-        _KERNELS.append(self)
+        self.full_name = f"{module}.{name}"
+        self.symbol = f"azee_{name}"
+        """Its name in object code."""
+        KERNELS.append(self)
 
     @cached_property
     def address(self) -> int:
         """Its address in memory."""
         if KEEPS:
             with suppress(Unkept):
-                return _linked(self.name, _symbol(self.name), self._kept())
+                return linked(self.name, self.symbol, self._kept())
         return int(self._compiled().address)
 
     @cached_property
@@ -120,8 +100,15 @@ class Kernel:
     def _compiled(self) -> Any:
         return getattr(import_module(self.module), self.name)
 
+    def llvm(self) -> str:
+        """Compile it by numba; return its LLVM code."""
+        return str(self._compiled().inspect_llvm())
+
     def _kept(self) -> bytes:
         """Return machine code from disk, after making it if necessary. Raises: Unkept."""
+        code = brought(self.full_name, self.digest)
+        if code is not None:
+            return code
         file, folders = self._file(), list(_folders(self._files()[0]))
         for folder in folders:
             with suppress(OSError):
@@ -129,7 +116,7 @@ class Kernel:
                 if hashlib.sha256(data[SUM_BYTES:]).digest() == data[:SUM_BYTES]:
                     return data[SUM_BYTES:]
         _tell_of(self)
-        code = _machine_code(self._compiled().inspect_llvm(), _symbol(self.name))
+        code = object_code(self.llvm(), self.symbol)
         for folder in folders:
             with suppress(OSError):
                 _store(folder, file, hashlib.sha256(code).digest() + code)
@@ -137,10 +124,12 @@ class Kernel:
         return code
 
     def _file(self) -> str:
-        return f"{self.module}.{self.name}-{_machine()}-{self._digest()}.o"
+        return f"{self.full_name}-{_machine()}-{self.digest[:16]}.o"
 
     def is_on_disk(self) -> bool:
-        """Whether its machine code was stored. Raises: Unkept."""
+        """Whether its machine code was stored, or came with the wheel. Raises: Unkept."""
+        if brought(self.full_name, self.digest) is not None:
+            return True
         file = self._file()
         return any((folder / file).is_file() for folder in _folders(self._files()[0]))
 
@@ -156,11 +145,13 @@ class Kernel:
             files += sorted(origin.parent.glob("*.py")) if package else [origin]
         return files
 
-    def _digest(self) -> str:
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of its sources, in hexadecimal digits. Raises: Unkept: one is not a file."""
         digest = hashlib.sha256()
         for file in self._files():
             digest.update(file.read_bytes())
-        return digest.hexdigest()[:16]
+        return digest.hexdigest()
 
 
 _EIGHT_BYTES = frozenset((np.dtype(np.float64), np.dtype(np.int64)))
@@ -177,123 +168,13 @@ def address(array: NDArray[Any]) -> int:
     return found
 
 
-def _symbol(name: str) -> str:
-    """Return the name of a kernel in its object file."""
-    return f"azee_{name}"
-
-
 @lru_cache(maxsize=1)
 def _machine() -> str:
     """Return processor and version of LLVM, as a short name."""
-    llvm = _llvm()
+    llvm = binding()
     features = llvm.get_host_cpu_features().flatten()
     told = (llvm.get_host_cpu_name(), features, *map(str, llvm.llvm_version_info))
     return hashlib.sha256(" ".join(told).encode()).hexdigest()[:12]
-
-
-@lru_cache(maxsize=1)
-def _llvm() -> Any:
-    """Return llvmlite's binding, initialised. Raises: Unkept."""
-    try:
-        import llvmlite.binding as llvm
-
-        with suppress(RuntimeError):  # newer versions do it themselves, and refuse
-            llvm.initialize()
-        llvm.initialize_native_target()
-        llvm.initialize_native_asmprinter()
-    except (ImportError, OSError, RuntimeError) as error:
-        raise Unkept(str(error)) from error
-    return llvm
-
-
-def _target_machine() -> Any:
-    llvm = _llvm()
-    return llvm.Target.from_default_triple().create_target_machine(
-        cpu=llvm.get_host_cpu_name(),
-        features=llvm.get_host_cpu_features().flatten(),
-        opt=3,
-        codemodel="jitdefault",
-        jit=True,
-    )
-
-
-def _machine_code(source: str, symbol: str) -> bytes:
-    """Return object code of a compiled function, which may call only C. Raises: Unkept."""
-    llvm = _llvm()
-    try:
-        module = llvm.parse_assembly(_closed(source))
-        entries = [f for f in module.functions if f.name.startswith("cfunc.")]
-        if len(entries) != 1:
-            raise Unkept("no single entry")
-        entries[0].name = symbol
-        module.verify()
-        code = bytes(_target_machine().emit_object(module))
-    except RuntimeError as error:
-        raise Unkept(str(error)) from error
-    foreign = _undefined(code) - LIBRARY
-    if foreign:
-        raise Unkept(f"calls {', '.join(sorted(foreign))}")
-    return code
-
-
-def _closed(source: str) -> str:
-    """Remove the names of numba's and Python's functions from LLVM code.
-
-    numba names functions for errors and for freeing memory. Our kernels never call them; if one
-    did, the process would end. Other names stay, and are checked later.
-    """
-
-    def defined(found: re.Match[str]) -> str:
-        whole, name = found[1], found[2]
-        if name not in TRAPS and not name.startswith(("Py", "_Py")):
-            return found[0]
-        return f"define internal {whole} {{\n  call void @abort()\n  unreachable\n}}"
-
-    closed = _DECLARED.sub(defined, source)
-    closed = _EXTERNAL.sub(r"\1internal \2 \3 zeroinitializer", closed)
-    return closed if "declare void @abort()" in closed else f"{closed}\ndeclare void @abort()\n"
-
-
-def _undefined(code: bytes) -> frozenset[str]:
-    """Return names that an object file (ELF, 64 bits) leaves undefined. Raises: Unkept."""
-    try:
-        if code[:6] != b"\x7fELF\x02\x01":
-            raise Unkept("no ELF")
-        (table,) = struct.unpack_from("<Q", code, 0x28)
-        size, count = struct.unpack_from("<HH", code, 0x3A)
-        sections = [struct.unpack_from("<IIQQQQIIQQ", code, table + n * size) for n in range(count)]
-        names = set()
-        for kind, at, length, link in ((s[1], s[4], s[5], s[6]) for s in sections):
-            if kind != 2:  # not a symbol table
-                continue
-            for entry in range(at, at + length, 24):
-                name, _, _, section = struct.unpack_from("<IBBH", code, entry)
-                if section == 0 and name:
-                    start = sections[link][4] + name
-                    names.add(code[start : code.index(0, start)].decode())
-        return frozenset(names)
-    except (struct.error, IndexError, ValueError) as error:
-        raise Unkept(str(error)) from error
-
-
-_engines: list[Any] = []
-"""Keeps linked code in memory."""
-
-
-def _linked(name: str, symbol: str, code: bytes) -> int:
-    """Link machine code into this process; return the address of its entry. Raises: Unkept."""
-    llvm = _llvm()
-    try:
-        engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target_machine())
-        engine.add_object_file(llvm.ObjectFileRef.from_data(code))
-        engine.finalize_object()
-        address = engine.get_function_address(symbol)
-    except RuntimeError as error:
-        raise Unkept(str(error)) from error
-    if not address:
-        raise Unkept(f"{name} is not in its machine code")
-    _engines.append(engine)
-    return int(address)
 
 
 def _folders(source: Path) -> Iterator[Path]:

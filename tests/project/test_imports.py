@@ -16,7 +16,9 @@ DECLARATIONS = {f"azee_solver.{name}" for name in ("geometry", "constraint", "no
 MAY_IMPORT: dict[str, set[str]] = {
     "azee_grammar": {"lark", "platformdirs"},
     "azee_rig": {"numpy"},
-    "azee_rig.machine_code": {"numpy", "llvmlite"},
+    "azee_rig.ahead_of_time": {"azee_rig.object_code"},
+    "azee_rig.machine_code": {"azee_rig.ahead_of_time", "azee_rig.object_code", "numpy"},
+    "azee_rig.object_code": {"llvmlite"},
     "azee_rig.pointers": {"numba", "llvmlite"},
     "azee_rig.skin_kernel": {"azee_rig.machine_code", "azee_rig.pointers", "numba"},
     "azee_rig.build": {"azee_rig", "numpy", "trimesh"},

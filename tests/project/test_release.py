@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import re
 import shutil
+import tomllib
 from pathlib import Path
 from types import ModuleType
 
@@ -57,6 +59,38 @@ def test_a_tag_needs_its_version_and_a_date() -> None:
 
 def test_the_oldest_dependencies_are_exact() -> None:
     assert _script("oldest").oldest(["click>=8.1", "lark>=1.2"]) == ["click==8.1", "lark==1.2"]
+
+
+def test_a_wheel_for_a_platform_has_every_kernel() -> None:
+    compiled = {
+        f"{'.'.join(file.relative_to(place).with_suffix('').parts)}.{node.name}"
+        for place in (ROOT / "rig", ROOT / "solver")
+        for file in place.rglob("*.py")
+        for node in ast.parse(file.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.FunctionDef)
+        for decorator in node.decorator_list
+        if isinstance(decorator, ast.Call) and ast.unparse(decorator.func) == "cfunc"
+    }
+    found = {kernel.full_name for kernel in _script("kernels").kernels()}
+    assert found >= compiled
+    assert len(compiled) >= 8
+
+
+def test_kernels_are_compiled_ahead_only_for_platforms_that_are_known() -> None:
+    kernels = _script("kernels")
+    assert kernels.baseline("linux", "x86_64")[2] == "manylinux_2_17_x86_64"
+    for system, machine in (("linux", "riscv64"), ("darwin", "x86_64"), ("win32", "AMD64")):
+        with pytest.raises(kernels.NoBaseline, match=r"only on: linux x86_64$"):
+            kernels.baseline(system, machine)
+
+
+def test_a_wheel_is_pure_unless_it_is_asked_for_a_platform() -> None:
+    """Any `pip install` of the sources must work without numba at hand to build."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    hook = project["tool"]["hatch"]["build"]["targets"]["wheel"]["hooks"]["custom"]
+    assert hook["enable-by-default"] is False
+    assert (ROOT / hook["path"]).is_file()
+    assert "/packaging" in project["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
 
 
 @pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)

@@ -16,6 +16,7 @@ from programs import Python
 
 from azee_rig import machine_code, skin
 from azee_rig.machine_code import Kernel
+from azee_rig.object_code import Unkept
 from azee_solver import kinematics, program, winding
 
 pytestmark = pytest.mark.skipif(not machine_code.KEEPS, reason="numba keeps its own code here")
@@ -168,7 +169,7 @@ def test_what_calls_more_than_c_is_left_to_numba(
 ) -> None:
     monkeypatch.syspath_prepend(str(place))
     kernel, out = Kernel("waved", "shaped", "azee_rig.pointers"), np.zeros(6)
-    with pytest.raises(machine_code.Unkept, match="reshape"):
+    with pytest.raises(Unkept, match="reshape"):
         kernel._kept()
     kernel(7, out)
     assert out[5] == 7

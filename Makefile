@@ -20,7 +20,7 @@ demo: $(READY) ## compile an example; print where the GLB, the BVH and the pictu
 	@$(RUN) examples/build.py --out out/demo --only person-aged-52
 
 test: $(READY) node ## run all tests; those for Node and Chromium if these are installed
-	@$(RUN) -m pytest -n auto
+	@$(RUN) -m pytest -n auto --dist worksteal
 
 check: $(READY) ## check format, lint and types and run the fast tests; use before every commit
 	@$(RUN) -m ruff format --check .

@@ -35,9 +35,12 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 def pytest_configure(config: pytest.Config) -> None:
     """Keep what programs keep in a folder of these tests alone, and each process to one core.
 
-    Tests run side by side: threads that OpenBLAS starts beside them only wait for each other.
+    Tests run side by side: threads that OpenBLAS starts beside them only wait for each other, and
+    what one worker of xdist keeps, all find in the folder that they have from the first process.
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if hasattr(config, "workerinput"):
+        return
     folder = tempfile.mkdtemp(prefix="azee-tests-")
     os.environ["AZEE_CACHE"] = folder
     config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))

@@ -96,9 +96,10 @@ class _Fit:
         wanted = rotations[:, self.joints]
         q = np.clip(q, c.lower, c.upper)
         r = self._residual(q, wanted)
-        damping = np.full(len(q), 1e-3)
+        damping, exact = np.full(len(q), 1e-3), np.zeros(len(q), dtype=bool)
         for _ in range(SWEEPS):
-            busy = np.flatnonzero((np.abs(r).max(axis=1) > 1e-9) & (damping < 1e6))
+            far = np.abs(r).max(axis=1) > 1e-9
+            busy = np.flatnonzero(far & ~exact & (damping < 1e6))
             if not len(busy):
                 break
             J = self._jacobian(q[busy], r[busy], wanted[busy])
@@ -112,6 +113,8 @@ class _Fit:
             q[busy[better]], r[busy[better]] = tried[better], after[better]
             damping[busy] = np.where(better, damping[busy] * 0.1, damping[busy] * 10.0)
             np.maximum(damping, 1e-9, out=damping)
+            # What is left now is how the file was rounded: no step takes that away.
+            exact[busy] = ~better & (np.abs(r[busy]).max(axis=1) < EXACT_RAD)
         turns = np.linalg.norm(r.reshape(len(q), -1, 3), axis=2)
         return q, turns.max(axis=1)
 

@@ -226,6 +226,7 @@ def still(
     if score is None:
         raise AZeeError(*found)
     made = performed(job, score, program, check, postures)
+    check()
     clip = made.clip
     blocks = made.animation.key_times
     inside = [t for t in blocks if t >= made.animation.lead_s] or [clip.duration_s / 2]

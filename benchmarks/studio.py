@@ -80,7 +80,8 @@ def _page(url: str, seconds: float) -> bool:
     if told is None:
         return False
     if told["during"] is not None:
-        print(f"the page was not done in {seconds:g} s, while {told['during']}")
+        why = told["failure"] or f"more than {seconds:g} s are over"
+        print(f"the page was not done, while {told['during']}: {why}")
     met = bool(told["edits"]) and _edits(told["edits"])
     for name, times in (
         ("a frame", "frames_ms"),

@@ -331,9 +331,8 @@ const WORDS = ['bonjour', 'armoire', 'bien', 'arbre', 'cinéma', 'monde'];
  * and drags. What is not measured when the time is over is left out, and `during` says where it was.
  */
 async function times() {
-  const told = { during: 'opening the page', edits: [], device: '', frames_ms: [], drags_ms: [] };
-  const work = measured(told);
-  work.catch(() => {}); // what is left fails when the browser is closed
+  const told = { during: 'opening the page', failure: '', edits: [], device: '', frames_ms: [], drags_ms: [] };
+  const work = measured(told).catch(error => { told.failure = String(error).split('\n')[0]; });
   let timer;
   await Promise.race([work, new Promise(resolve => { timer = setTimeout(resolve, 1000 * seconds); })]);
   clearTimeout(timer);

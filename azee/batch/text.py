@@ -51,7 +51,7 @@ def texts_of(sources: Sequence[Path]) -> list[Text]:
     Raises: AZeeError: cannot-read: there is no such file, or a folder has no text.
     """
     found = [text for source in sources for path in _files(source) for text in _texts(path)]
-    return list(_told_apart(found))
+    return told_apart(found)
 
 
 def _files(source: Path) -> Iterator[Path]:
@@ -118,9 +118,10 @@ def _line(line: str) -> tuple[str | None, dict[str, Any]]:
     return text, found
 
 
-def _told_apart(texts: Iterable[Text]) -> Iterator[Text]:
+def told_apart(texts: Iterable[Text]) -> list[Text]:
     """Make names fit for folders, and give those that come again a number."""
     taken: set[str] = set()
+    out = []
     for text in texts:
         plain = _UNFIT.sub("_", text.name)[:_LONGEST].strip("._") or "text"
         name, again = plain, 1
@@ -128,4 +129,5 @@ def _told_apart(texts: Iterable[Text]) -> Iterator[Text]:
             again += 1
             name = f"{plain}.{again}"
         taken.add(name.casefold())
-        yield replace(text, name=name)
+        out.append(replace(text, name=name))
+    return out

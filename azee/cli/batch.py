@@ -19,6 +19,7 @@ from azee.formats import CAMERA_WRITERS, WRITERS
 if TYPE_CHECKING:
     from azee.batch.run import Summary
     from azee.batch.task import Body
+    from azee.batch.text import Text
     from azee.compilation import Hand
     from azee.motion.keys.rest import Rest
     from azee.motion.timing.performed import Timing
@@ -74,9 +75,7 @@ def _seed(value: str) -> int | None:
 
 
 @click.command(short_help="Many texts on many bodies, resumable, on one machine or a cluster.")
-@click.argument(
-    "sources", nargs=-1, required=True, metavar="SOURCE…", type=click.Path(path_type=Path)
-)
+@click.argument("sources", nargs=-1, metavar="SOURCE…", type=click.Path(path_type=Path))
 @click.option(
     "-o",
     "--output",
@@ -85,6 +84,12 @@ def _seed(value: str) -> int | None:
     required=True,
     type=click.Path(file_okay=False, path_type=Path),
     help="The folder of outputs; it is made if need be.",
+)
+@click.option(
+    "--rules",
+    metavar="LIBRARY",
+    multiple=True,
+    help="Also each rule of a library by itself: its name, or its folder; repeatable.",
 )
 @click.option(
     "--formats",
@@ -151,6 +156,7 @@ def _seed(value: str) -> int | None:
 def batch(
     sources: Sequence[Path],
     out: Path,
+    rules: Sequence[str],
     formats: tuple[str, ...],
     bodies: tuple[str, ...],
     hands: tuple[Hand, ...],
@@ -170,12 +176,15 @@ def batch(
 ) -> int:
     """Compile the texts of all SOURCES on all bodies, with all variations.
 
-    A source is a file of AZee, a list (.jsonl: an object with `text` a line), or a folder of these.
+    A source is a file of AZee, a list (.jsonl: an object with `text` a line), or a folder of these;
+    --rules adds the signs of a lexicon.
     OUT/manifest.jsonl tells what came of each. A run that was stopped or killed goes on with the
     same command; one that is complete does nothing.
 
     Exit codes: 0 done; 1 some text is at fault, all others are done; 2 wrong use.
     """
+    if not sources and not rules:
+        raise click.UsageError("nothing to compile: give a SOURCE, or --rules LIBRARY")
     if workers is not None and scheduler is not None:
         raise click.UsageError("--workers are on this machine and do not go with --scheduler")
     seen = [suffix for suffix in formats if suffix in CAMERA_WRITERS]
@@ -186,14 +195,14 @@ def batch(
     from azee.batch.folder import opened
     from azee.batch.options import Options
     from azee.batch.run import run_batch
-    from azee.batch.text import texts_of
+    from azee.batch.text import told_apart
 
     options = Options(
         formats, hands, seeds, speeds, (cameras or ("front",)) if seen else (), float(fps), rest,
         timing, float(tempo), precise, not no_life,
     )  # fmt: skip
     found = _bodies(bodies)
-    texts = texts_of(sources)
+    texts = told_apart(_texts(sources, rules, quiet))
     with opened(out) as folder:
         count = workers or _processors()
         with bar("Compiling", quiet=quiet) as progress:
@@ -203,6 +212,24 @@ def batch(
             )  # fmt: skip
     _tell(summary, out, quiet)
     return FAULT if summary.faulty else DONE
+
+
+def _texts(sources: Sequence[Path], rules: Sequence[str], quiet: bool) -> list[Text]:
+    """Return the texts of sources, then those of rules; say how many rules are none."""
+    from azee.batch.rules import rules_of
+    from azee.batch.text import texts_of
+
+    found = texts_of(sources)
+    for library in rules:
+        texts, left_out = rules_of(library)
+        found += texts
+        if left_out:
+            news(
+                f"{left_out} rules of {library} are left out: they need arguments and have no "
+                "example, or give no score",
+                quiet=quiet,
+            )
+    return found
 
 
 def _bodies(places: Sequence[str]) -> list[Body]:

@@ -147,7 +147,11 @@ class Program:
         utterance, found = self._judged(item)
         if utterance is None:
             return found
-        return (*found, *audit(utterance.score, dominant, self._span_of, utterance.span))
+        key = id(item), dominant
+        if key not in self._audits:
+            problems = audit(utterance.score, dominant, self._span_of, utterance.span)
+            self._audits[key] = tuple(problems)
+        return (*found, *self._audits[key])
 
     def evaluate(self, text: str, name: str = "<expression>") -> UtteranceScore:
         """Evaluate one expression, with the rules of the text in scope, to a score.
@@ -212,6 +216,10 @@ class Program:
 
     @cached_property
     def _scores(self) -> dict[int, tuple[UtteranceScore | None, tuple[Diagnostic, ...]]]:
+        return {}
+
+    @cached_property
+    def _audits(self) -> dict[tuple[int, Side], tuple[Diagnostic, ...]]:
         return {}
 
     def utterance_items(self) -> Iterator[Utterance]:

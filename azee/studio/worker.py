@@ -11,6 +11,7 @@ import gc
 import os
 import sys
 import threading
+import time
 from collections import deque
 from collections.abc import Sequence
 from pathlib import Path
@@ -36,27 +37,41 @@ if TYPE_CHECKING:
     from azee.posing.text import PosedText
 
 _PICTURE = (168, 210)
+QUIET_S = 1.0
+"""So long after the last key or drag pictures wait."""
 
 
 class Inbox:
-    """Jobs that wait: acts of posing first, then the newest text of each page, then the rest."""
+    """Jobs that wait: acts of posing, then the newest text of each page, then the rest.
 
-    def __init__(self) -> None:
+    Pictures wait until nobody has typed or dragged for a while: one that is being drawn keeps the
+    next text waiting.
+
+    Args: quiet_s: for so long.
+    """
+
+    def __init__(self, quiet_s: float = QUIET_S) -> None:
         self._changed = threading.Condition()
         self._texts: dict[int, Header] = {}
         self._acts: deque[Header] = deque()
         self._others: deque[Header] = deque()
+        self._pictures: deque[Header] = deque()
+        self._quiet_s, self._quiet_from = quiet_s, 0.0
         self.given_up: list[int] = []
 
     def put(self, message: Header) -> None:
         """Take a message in; a text of the same page that waits is given up for it."""
         with self._changed:
+            if message["do"] in ("compile", "pose"):
+                self._quiet_from = time.monotonic() + self._quiet_s
             if message["do"] == "compile":
                 if older := self._texts.pop(message["client"], None):
                     self.given_up.append(older["job"])
                 self._texts[message["client"]] = message
             elif message["do"] == "pose":
                 self._acts.append(message)
+            elif message["do"] == "picture":
+                self._pictures.append(message)
             else:
                 self._others.append(message)
             self._changed.notify()
@@ -64,21 +79,28 @@ class Inbox:
     def take(self) -> tuple[Header, list[int]]:
         """Wait for a job; return it, with those that were given up before they began."""
         with self._changed:
-            while not (self._acts or self._texts or self._others):
-                self._changed.wait()
-            if self._acts:
-                message = self._acts.popleft()
-            elif self._texts:
-                message = self._texts.pop(next(iter(self._texts)))
-            else:
-                message = self._others.popleft()
+            while (message := self._next()) is None:
+                quiet_in = self._quiet_from - time.monotonic()
+                self._changed.wait(quiet_in if self._pictures else None)
             gone, self.given_up = self.given_up, []
             return message, gone
 
+    def _next(self) -> Header | None:
+        """Return the job whose turn it is, if there is one now."""
+        if self._acts:
+            return self._acts.popleft()
+        if self._texts:
+            return self._texts.pop(next(iter(self._texts)))
+        if self._others:
+            return self._others.popleft()
+        if self._pictures and time.monotonic() >= self._quiet_from:
+            return self._pictures.popleft()
+        return None
+
     def put_back(self, message: Header) -> None:
-        """Take back a job that a text interrupted; it is the next of the rest."""
+        """Take back a picture that a text or an act interrupted; it is the next one."""
         with self._changed:
-            self._others.appendleft(message)
+            self._pictures.appendleft(message)
 
     def newer(self, client: int) -> bool:
         """Whether a newer text of a page waits."""

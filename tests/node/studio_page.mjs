@@ -1,12 +1,12 @@
-// node studio_page.mjs JOURNEY URL PICTURES [FILE]
+// node studio_page.mjs JOURNEY URL PICTURES [FILE [SECONDS]]
 // Uses the page of `azee studio` in headless Chromium. JOURNEY is author, keys, pose, moved, typing,
-// text or times.
+// text or times, which ends after SECONDS at the latest.
 // Prints what was seen as JSON; PICTURES is a folder for screenshots, or empty.
 import { readFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
 import { chromium } from 'playwright-core';
 
-const [journey, url, pictures, file = 'untitled.azee'] = process.argv.slice(2);
+const [journey, url, pictures, file = 'untitled.azee', seconds = '300'] = process.argv.slice(2);
 const SLOW_MS = 120_000;
 const server = await chromium.launchServer({
   executablePath: process.env.CHROMIUM,
@@ -324,25 +324,60 @@ async function shown() {
   return { text: await text(page), notices: await page.locator('.notice').allTextContents() };
 }
 
-/** Edits a sentence and tells how long each edit took to move the signer; then frames and drags. */
+const WORDS = ['bonjour', 'armoire', 'bien', 'arbre', 'cinéma', 'chat'];
+
+/**
+ * Edits a sentence of two signs and tells how long each edit took to move the signer; then frames
+ * and drags. What is not measured when the time is over is left out, and `during` says where it was.
+ */
 async function times() {
+  const told = { during: 'opening the page', failure: '', edits: [], device: '', frames_ms: [], drags_ms: [] };
+  const work = measured(told).catch(error => { told.failure = String(error).split('\n')[0]; });
+  let timer;
+  await Promise.race([work, new Promise(resolve => { timer = setTimeout(resolve, 1000 * seconds); })]);
+  clearTimeout(timer);
+  return structuredClone(told);
+}
+
+async function measured(told) {
   const page = await opened();
+  const sentence = word => `:info-about(:personne, :${word})\n`;
+  const stand = () => page.evaluate(() => {
+    azeeStudio.signer.play(false);
+    azeeStudio.signer.seek(azeeStudio.signer.duration / 2);
+  });
   await page.click('.cm-content');
-  await page.keyboard.insertText(":info-about(:personne, :âge)\n");
+  await page.keyboard.insertText(sentence('âge'));
   await signed(page);
-  for (const word of ['arbre', 'âge', 'arbre', 'âge', 'arbre', 'âge', 'arbre', 'âge']) {
-    await page.evaluate(other => azeeStudio.editor.replace(`:info-about(:personne, :${other})\n`), word);
-    await signed(page);
-    await page.waitForTimeout(600);
+  for (const [kind, plays] of [['a new sign', false], ['a known sign', false], ['a known sign, playing', true]]) {
+    for (const word of WORDS) {
+      told.during = `editing: ${kind}`;
+      await stand();
+      if (plays) await page.evaluate(() => azeeStudio.signer.play(true));
+      await page.waitForTimeout(700); // the palette is loaded again after an edit
+      await page.evaluate(other => azeeStudio.editor.replace(other), sentence(word));
+      await signed(page);
+      const times = await page.evaluate(() => ({
+        ...azeeStudio.latencies.at(-1), worker: azeeStudio.workerTimes.at(-1),
+      }));
+      told.edits.push({ kind, word, ...times });
+    }
   }
-  const told = await page.evaluate(() => ({
-    edits_ms: azeeStudio.latencies, worker_ms: azeeStudio.workerTimes,
-    device: azeeStudio.signer.device, frames_ms: azeeStudio.signer.timed(40),
-  }));
+  told.during = 'drawing frames';
+  await stand();
+  told.device = await page.evaluate(() => azeeStudio.signer.device);
+  for (let i = 0; i < 40; i++)
+    told.frames_ms.push(await page.evaluate(share =>
+      azeeStudio.signer.timed(share * azeeStudio.signer.duration), i / 40));
+  told.during = 'dragging';
   await page.click('#tab-pose');
   await posed(page);
-  for (let i = 0; i < 4; i++) await drag(page, '@I_TIP(s)', 40 - 20 * i, -30 + 15 * i, 40).then(() => posed(page));
-  return { ...told, drags_ms: await page.evaluate(() => azeeStudio.posing.answers) };
+  for (let i = 0; i < 4; i++) {
+    await drag(page, '@I_TIP(s)', 40 - 20 * i, -30 + 15 * i, 40);
+    await posed(page);
+    told.drags_ms = await page.evaluate(() => azeeStudio.posing.answers);
+  }
+  told.during = null;
 }
 
 const journeys = { author, keys, pose, moved, typing, text: shown, times };

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import signal
+import time
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import Any
@@ -54,6 +55,19 @@ def test_of_one_page_only_the_newest_text_waits() -> None:
     inbox.put({"do": "pose", "client": 0, "job": 15})
     assert inbox.has_urgent()
     assert [inbox.take()[0]["job"] for _ in range(4)] == [14, 15, 13, 12]
+
+
+def test_pictures_wait_until_nobody_has_typed_for_a_while() -> None:
+    inbox = Inbox(quiet_s=0.3)
+    inbox.put({"do": "picture", "job": 1})
+    typed_s = time.monotonic()
+    inbox.put({"do": "compile", "client": 0, "job": 2})
+    inbox.put({"do": "body", "job": 3})
+    assert [inbox.take()[0]["job"] for _ in range(2)] == [2, 3]
+    assert inbox.take()[0]["job"] == 1
+    assert time.monotonic() >= typed_s + 0.3
+    inbox.put_back({"do": "picture", "job": 1})
+    assert inbox.take()[0]["job"] == 1
 
 
 def test_of_many_texts_the_last_is_shown_and_all_are_answered(tmp_path: Path) -> None:

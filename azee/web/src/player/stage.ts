@@ -7,7 +7,7 @@ import type { Body } from './body';
 import type { Settings } from './settings';
 import { View } from './view';
 
-const SKY = 0xdfe8f5, GROUND = 0x8d7f74;
+const SKY = 0xdfe8f5, GROUND = 0x8d7f74, BEHIND = 0xd1dbe3;
 const AMBIENT = 1.7, KEY = 2.3, FILL = 0.5;
 const MOST_PIXELS = 2; // a CSS pixel has at most so many of the screen's, each way
 
@@ -25,6 +25,7 @@ export class Stage {
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'low-power' });
     this.renderer.outputColorSpace = SRGBColorSpace;
+    this.scene.background = new Color(BEHIND); // until it is arranged
     this.view = new View(canvas, () => { this.dirty = true; });
     const fill = new DirectionalLight(0xe8eeff, FILL);
     fill.position.set(-2, 1.4, 1.6);
@@ -47,7 +48,7 @@ export class Stage {
     this.key.color.copy(settings.light);
     this.key.position.fromArray(settings.lightpos);
     this.view.restricted = settings.restrictView;
-    this.scene.background = settings.color ? settings.color : new Color(0xd1dbe3);
+    this.scene.background = settings.color ? settings.color : new Color(BEHIND);
     if (this.body) {
       this.body.dye(settings.cloth);
       this.body.scene.position.fromArray(settings.position);

@@ -28,7 +28,7 @@ document.title = words.title;
 class Studio {
   /** Milliseconds after an edit when its text was sent, its movement came and was drawn; for measuring. */
   readonly latencies: { sent: number; came: number; drawn: number }[] = [];
-  /** Milliseconds that the steps of the server took, for each of them. */
+  /** Milliseconds that the steps of the server took, for each of them, and its processor. */
   readonly workerTimes: Record<string, number>[] = [];
   readonly notices = new Notices();
   readonly editor: Editor;
@@ -250,7 +250,7 @@ class Studio {
     this.signer?.show(data, () => {
       const [sent, drawn] = [sentAt - begun, performance.now() - begun];
       this.latencies.push({ sent, came: came - begun, drawn });
-      this.workerTimes.push(answer.ms);
+      this.workerTimes.push({ ...answer.ms, processor: answer.processor_ms });
       this.shownNumber = answer.number;
     });
     this.score.show(answer.blocks, answer.lead_s, this.signer?.duration ?? 1);

@@ -148,7 +148,7 @@ export type Answer =
   | { kind: 'score'; number: number; diagnostics: Diagnostic[]; blocks: Block[]; ms: number }
   | {
     kind: 'clip'; number: number; blocks: Block[]; lead_s: number; key_times: number[];
-    diagnostics: Diagnostic[]; ms: Record<string, number>;
+    diagnostics: Diagnostic[]; ms: Record<string, number>; processor_ms: number;
   }
   | { kind: 'report'; number: number; constraints: Constraint[]; marks: Marked[] }
   | { kind: 'done' | 'superseded'; number: number | null }

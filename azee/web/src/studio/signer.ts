@@ -148,12 +148,10 @@ export class Signer {
     return this.stage.device;
   }
 
-  /** Draws some frames and returns how long each took, milliseconds. For measuring. */
-  timed(frames: number): number[] {
-    return Array.from({ length: frames }, (_, i) => {
-      this.seek((i / frames) * this.duration);
-      return this.stage.timed();
-    });
+  /** Draws the frame at a time and returns how long that took, milliseconds. For measuring. */
+  timed(time: number): number {
+    this.seek(time);
+    return this.stage.timed();
   }
 
   joints(): Record<string, number[]> {

@@ -16,9 +16,10 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
 from azee.export.files import replace_path
+from azee.export.pictures.typeface import typeface
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent
@@ -85,7 +86,7 @@ def sheet(before: Sequence[Image.Image], after: Sequence[Image.Image]) -> Image.
     width, height = 2 * SIZE[0] + 12, SIZE[1] + LABEL_PX
     rows = -(-len(TEXTS) // COLUMNS)
     out = Image.new("RGB", (COLUMNS * width, rows * height), "white")
-    pen, font = ImageDraw.Draw(out), ImageFont.load_default(size=13)
+    pen, font = ImageDraw.Draw(out), typeface(13)
     for n, label in enumerate(TEXTS):
         x, y = n % COLUMNS * width, n // COLUMNS * height
         out.paste(before[n], (x, y))

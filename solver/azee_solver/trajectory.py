@@ -16,7 +16,7 @@ ahead into frames that the next one solves again.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -122,20 +122,39 @@ class Trajectory:
     def solve(self, fps: float) -> Array:
         """Return the postures (T, V) that lower F, inside the limits."""
         T = len(self.reference)
-        lower, upper = self.lower, self.upper
-        out = np.clip(self.reference, lower, upper)
+        out = np.clip(self.reference, self.lower, self.upper)
         windows = [(max(0, start - ORDER - 1), start, stop) for start, stop in _windows(T, fps)]
         room = _Room.of(max(stop - first for first, _, stop in windows), out.shape[1])
-        for first, start, stop in windows:
-            out[first:stop] = self._solve_window(
-                range(first, stop), start - first, out[first:stop], room
-            )
+        roomy = {*range(len(windows))} if self.near_limits is None else set[int]()
+        starts: list[Array] = []
+        while len(starts) < len(windows):
+            i = len(starts)
+            first, start, stop = windows[i]
+            rows, solved = slice(first, stop), start - first
+            lower, upper = self.lower, self.upper
+            if i not in roomy:
+                lower, upper = self._inner_limits(rows, out[first:start])
+            found, missed = self._solve_window(rows, solved, out[rows], (lower, upper), room)
+            if missed <= MET_SHARE or i in roomy:
+                starts.append(out[rows].copy())
+                out[rows] = found
+                continue
+            roomy |= {max(i - 1, 0), i}  # the one before looks ahead into it
+            if starts:
+                first, _, stop = windows[i - 1]
+                out[first:stop] = starts.pop()
         return out
 
-    def _solve_window(self, frames: range, solved: int, start: Array, room: _Room) -> Array:
-        """Return the postures of some frames, the first of which are solved."""
+    def _solve_window(
+        self, rows: slice, solved: int, start: Array, limits: tuple[Array, Array], room: _Room
+    ) -> tuple[Array, float]:
+        """Return the postures of some frames, the first of which are solved, inside limits.
+
+        And the largest miss that is left, in tolerances.
+        """
         T, n = start.shape
-        rows = slice(frames.start, frames.stop)
+        frames = range(rows.start, rows.stop)
+        lower, upper = limits
         programs = [self.programs[i] for i in self.of_frame[rows]]
         blocks = np.array([p.compiled.block for p in programs], dtype=np.int64)
         x, weights = np.array(start), _weights(programs)
@@ -145,7 +164,7 @@ class Trajectory:
         bands = _difference_bands(T)
         misses, result = np.empty((2, T)), np.empty(2)
 
-        def take(stage: Stage, refills: Refills, lower: Array, upper: Array) -> float:
+        def take(stage: Stage, refills: Refills) -> float:
             """Take a stage's steps; return the largest miss that is left, in tolerances."""
             options = np.array([stage.misses, stage.overlaps * self.overlap, stage.tolerance, 1e-4])
             _PROJECT(
@@ -156,31 +175,27 @@ class Trajectory:
             )  # fmt: skip
             return math.sqrt(float(misses[0].max(initial=0.0)))
 
-        for limits in self._limits(rows, x[:solved]):
-            x[solved:] = np.clip(start[solved:], *limits)
+        x[solved:] = np.clip(x[solved:], lower, upper)
+        refills = self.refilled(frames, x)
+        if take(LOOK, refills) > NEAR:
+            take(SOFT, refills)
             refills = self.refilled(frames, x)
-            if take(LOOK, refills, *limits) > NEAR:
-                take(SOFT, refills, *limits)
-                refills = self.refilled(frames, x)
-            if take(WHOLE, refills, *limits) <= MET_SHARE:
-                break
-            if take(FIRM, self.refilled(frames, x), *limits) <= MET_SHARE:
-                break
-        return x
+        missed = take(WHOLE, refills)
+        if missed > MET_SHARE:
+            missed = take(FIRM, self.refilled(frames, x))
+        return x, missed
 
-    def _limits(self, rows: slice, before: Array) -> Iterator[tuple[Array, Array]]:
-        """Yield the limits to try in some frames, (V,) each: those inside, and the limits.
+    def _inner_limits(self, rows: slice, before: Array) -> tuple[Array, Array]:
+        """Return the limits in some frames, (V,) each, after others that are solved.
 
-        What comes nearer to its limits in the frames before, which are solved, has all its room: it
-        would jump.
+        What comes nearer to its limits in these has all its room: it would jump.
         """
-        if self.near_limits is not None:
-            least = self.near_limits[rows].min(axis=0)
-            lower, upper = self.lower + least, self.upper - least
-            inside = np.all((lower <= before) & (before <= upper), axis=0) & (least > 0.0)
-            if inside.any():
-                yield np.where(inside, lower, self.lower), np.where(inside, upper, self.upper)
-        yield self.lower, self.upper
+        if self.near_limits is None:
+            return self.lower, self.upper
+        least = self.near_limits[rows].min(axis=0)
+        lower, upper = self.lower + least, self.upper - least
+        inside = np.all((lower <= before) & (before <= upper), axis=0)
+        return np.where(inside, lower, self.lower), np.where(inside, upper, self.upper)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

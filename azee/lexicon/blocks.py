@@ -112,10 +112,9 @@ def _runs(phrase: Phrase, name: str, told: Told) -> Iterator[_Run]:
         for m in moments
     ]
     turned = [tuple(orientation_text(m.hand, name)) for m in moments]
-    stays = not any(move.name == name for move in phrase.moves)
     befores = (None, *moments[:-1])
     placed = [
-        tuple(_placed(before, moment, site, stays=stays))
+        tuple(_placed(before, moment, site))
         for before, moment, site in zip(befores, moments, _sites(moments), strict=True)
     ]
     moves = [
@@ -138,14 +137,14 @@ def _touching(phrase: Phrase) -> frozenset[str]:
     return frozenset(found)
 
 
-def _placed(before: Moment | None, moment: Moment, site: Site | None, *, stays: bool) -> list[str]:
+def _placed(before: Moment | None, moment: Moment, site: Site | None) -> list[str]:
     """Return the constraint on where a hand is: at a place, or so far from where it was."""
     way = _way(before, moment)
     place = moment.hand.place
     if before is None or way is None or place is None or site is None:
-        return place_text(moment.hand, moment.name, stays=stays)
+        return place_text(moment.hand, moment.name)
     if place.is_space and site == moment.hand.site:
-        return place_text(moment.hand, moment.name, stays=stays)
+        return place_text(moment.hand, moment.name)
     vector = vector_text(way, moment.name)
     return [f"shift {site.text} {vector} 'from '{_mark(before.time_s + HELD_S)}"]
 

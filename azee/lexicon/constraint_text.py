@@ -10,7 +10,8 @@ from azee.lexicon.vectors import Vector, is_close, length
 
 WITHIN_DEGREES = 24
 WITHIN_M = 0.028
-"""How far off a hand may be that stays where it is."""
+"""How far a hand in space may be from the middle of its place: notations have places that are
+several times as far apart."""
 NEAR_SKIN_M = 0.003
 """How far a hand that touches may be from a point between sites of the other hand, which is near
 its skin, not on it."""
@@ -37,8 +38,8 @@ def orientation_text(hand: Hand, name: str) -> list[str]:
     return [f":#hand-faces({side}'fingers = {pointing}, 'palm = {facing})"]
 
 
-def place_text(hand: Hand, name: str, *, stays: bool) -> list[str]:
-    """Return the constraint on where a hand is. stays: whether it is there all the time."""
+def place_text(hand: Hand, name: str) -> list[str]:
+    """Return the constraint on where a hand is."""
     if hand.site is None or hand.place is None:
         return []
     place = hand.place

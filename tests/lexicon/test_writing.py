@@ -172,3 +172,24 @@ def test_a_thumb_along_the_index_is_the_side_of_its_hand() -> None:
 
     assert "place @T_BACK(s, 2) @ST 'contact" in placed("")
     assert "place @I_KNt(s, 1) @ST 'contact" in placed(' thumbpos="out"')
+
+
+def test_a_hand_in_space_has_a_bound_about_its_place_wherever_it_goes() -> None:
+    text = _rule(
+        f'<sign_manual>{POINTING_UP}<location_bodyarm location="chest"/>'
+        '<directedmotion direction="u"/></sign_manual>'
+    )
+    assert text.count("place @PA(s) :in-space") == 2
+    assert text.count(" 'within .028") == 2
+
+
+def test_a_thumb_lies_anywhere_on_the_nail_of_the_closed_middle_finger() -> None:
+    config = '<handconfig handshape="finger2" {}extfidir="u" palmor="d"/>'
+    thumbs = {
+        "": ".thumb-rests",
+        'thumbpos="across" ': ".thumb-rests",
+        'thumbpos="out" ': ".thumb-out",
+    }
+    for said, written in thumbs.items():
+        text = _rule(f"<sign_manual>{config.format(said)}</sign_manual>")
+        assert f":#hamfinger2('thumb = {written})" in text

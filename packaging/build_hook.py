@@ -27,9 +27,16 @@ class Kernels(BuildHookInterface[Any]):
         """Compile the kernels and add them; an editable install has none."""
         if version == "editable":
             return
-        *_, tag = runpy.run_path(str(SCRIPT))["baseline"](sys.platform, platform.machine())
+        script = runpy.run_path(str(SCRIPT))
+        try:
+            *_, tag = script["baseline"](sys.platform, platform.machine())
+        except script["NoBaseline"] as error:
+            self.app.abort(str(error))
         self._folder = Path(tempfile.mkdtemp())
-        subprocess.run([sys.executable, str(SCRIPT), str(self._folder)], check=True)
+        command = [sys.executable, str(SCRIPT), str(self._folder)]
+        if subprocess.run(command, check=False).returncode:
+            shutil.rmtree(self._folder)
+            self.app.abort("The kernels could not be compiled")
         build_data["pure_python"] = False
         build_data["tag"] = f"py3-none-{tag}"
         build_data["force_include"][str(self._folder)] = "azee_rig/compiled"

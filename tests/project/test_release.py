@@ -6,9 +6,11 @@ import ast
 import importlib.util
 import re
 import shutil
+import subprocess
 import tomllib
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
 import yaml
@@ -82,6 +84,62 @@ def test_kernels_are_compiled_ahead_only_for_platforms_that_are_known() -> None:
     for system, machine in (("linux", "riscv64"), ("darwin", "x86_64"), ("win32", "AMD64")):
         with pytest.raises(kernels.NoBaseline, match=r"only on: linux x86_64$"):
             kernels.baseline(system, machine)
+
+
+class AbortedError(Exception):
+    """What the application of hatch was told to end with."""
+
+
+class Application:
+    """Stands for that of hatch."""
+
+    def abort(self, message: str) -> None:
+        raise AbortedError(message)
+
+
+@pytest.fixture
+def hook(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """The build hook, as on Linux on x86-64."""
+    found = _script("build_hook")
+    monkeypatch.setattr(found.sys, "platform", "linux")
+    monkeypatch.setattr(found.platform, "machine", lambda: "x86_64")
+    return found
+
+
+def _kernels_of(hook: ModuleType) -> Any:
+    return hook.Kernels(str(ROOT), {}, None, None, "", "wheel", Application())
+
+
+def test_the_hook_puts_what_is_compiled_into_a_wheel_for_one_platform(
+    hook: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def compiled(command: list[str], check: bool) -> subprocess.CompletedProcess[bytes]:
+        (Path(command[-1]) / "manifest.json").write_text("{}", encoding="utf-8")
+        return subprocess.CompletedProcess(command, 0)
+
+    monkeypatch.setattr(hook.subprocess, "run", compiled)
+    kernels, data = _kernels_of(hook), {"pure_python": True, "force_include": {}}
+    kernels.initialize("editable", data)
+    assert data == {"pure_python": True, "force_include": {}}
+    kernels.initialize("standard", data)
+    assert (data["pure_python"], data["tag"]) == (False, "py3-none-manylinux_2_17_x86_64")
+    ((folder, place),) = data["force_include"].items()  # type: ignore[attr-defined]
+    assert place == "azee_rig/compiled"
+    assert [file.name for file in Path(folder).iterdir()] == ["manifest.json"]
+    kernels.finalize("standard", data, "")
+    assert not Path(folder).exists()
+
+
+def test_the_hook_tells_what_stops_it_in_a_sentence(
+    hook: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    failed = subprocess.CompletedProcess[bytes]([], 1)
+    monkeypatch.setattr(hook.subprocess, "run", lambda command, check: failed)
+    with pytest.raises(AbortedError, match="could not be compiled"):
+        _kernels_of(hook).initialize("standard", {"force_include": {}})
+    monkeypatch.setattr(hook.platform, "machine", lambda: "riscv64")
+    with pytest.raises(AbortedError, match="only on: linux x86_64"):
+        _kernels_of(hook).initialize("standard", {"force_include": {}})
 
 
 def test_a_wheel_is_pure_unless_it_is_asked_for_a_platform() -> None:

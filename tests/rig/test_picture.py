@@ -5,8 +5,10 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
+from azee.export.pictures import canvas
 from azee.export.pictures.camera import VIEWS, Camera, camera
 from azee.export.pictures.picture import contact_sheet, picture, render
+from azee.export.pictures.raster import coarsen
 from azee_rig.mesh import BodyMesh, Part
 from azee_rig.rig import Rig
 
@@ -119,6 +121,21 @@ def test_a_surface_does_not_shade_itself() -> None:
     for sign in (1.0, -1.0):
         image = pixels(render(places * (1.0, 1.0, sign), tilted, EYE, (90, 90)))[30:60, 30:60]
         assert np.ptp(image.astype(int), axis=(0, 1)).max() <= 12, "no stripes"
+
+
+def test_tiles_that_hide_no_light_are_left_out_without_a_trace(
+    signer: Rig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    q = signer.coordinates.idle + 0.3 * np.sin(np.arange(len(signer.coordinates)))
+    drawn = [pixels(picture(signer, q, view, size=(160, 200))) for view in ("front", "face")]
+
+    def unknowing(depth: Floats, tiles: NDArray[np.float32], rows: NDArray[np.int64]) -> None:
+        coarsen(depth, tiles, rows)
+        tiles[:, :, 3] = -1e30
+
+    monkeypatch.setattr(canvas, "coarsen", unknowing)
+    for view, before in zip(("front", "face"), drawn, strict=True):
+        assert np.array_equal(pixels(picture(signer, q, view, size=(160, 200))), before)
 
 
 def test_the_same_input_gives_the_same_bytes(signer: Rig) -> None:

@@ -52,7 +52,7 @@ class Canvas:
         self.shadow = np.empty((SHADOW_SAMPLES, SHADOW_SAMPLES))
         counts = SHADOW_SAMPLES // SHADOW_TILES
         self.tile_rows = np.cumsum(counts) - counts
-        self.tiles = np.empty((counts.sum(), counts[0], 3), dtype=np.float32)
+        self.tiles = np.empty((counts.sum(), counts[0], 4), dtype=np.float32)
         self.shadow_seen = np.empty(self.shadow.shape, dtype=np.int32)
         top, bottom = (np.array(c) ** 2.2 for c in BACKGROUND)
         self.background = top + np.linspace(0.0, 1.0, size[1])[:, None] * (bottom - top)

@@ -84,8 +84,9 @@ def coarsen(depth: Any, tiles: Any, rows: Any) -> None:
     """Fill in least, mean and greatest depth of square tiles of 2, 4, 8 … samples a side.
 
     Two surfaces in a tile, as at the edge of a hand, have their shares told by the three numbers.
+    A fourth is the least depth in the 3 × 3 tiles around, of all sizes but the first.
 
-    Args: depth: (S, S) as of `fill`. tiles: (·, S / 2, 3) gets one size below the other. rows: (n,)
+    Args: depth: (S, S) as of `fill`. tiles: (·, S / 2, 4) gets one size below the other. rows: (n,)
     the first row of each size; S is a multiple of the greatest.
     """
     size = depth.shape[0]
@@ -109,6 +110,15 @@ def coarsen(depth: Any, tiles: Any, rows: Any) -> None:
                 tiles[rows[n] + y, x, 0] = least
                 tiles[rows[n] + y, x, 1] = total / 4
                 tiles[rows[n] + y, x, 2] = most
+    for n in range(1, rows.shape[0]):
+        first, count = rows[n], size >> (n + 1)
+        for y in range(count):
+            for x in range(count):
+                around = np.float32(_FAR)
+                for v in range(max(0, y - 1), min(count, y + 2)):
+                    for u in range(max(0, x - 1), min(count, x + 2)):
+                        around = min(around, tiles[first + v, u, 0])
+                tiles[first + y, x, 3] = around
 
 
 @njit("f8(i8, f8)", cache=True, nogil=True)
@@ -131,7 +141,8 @@ def _lit(p: Any, n: Any, direct: Any, shadow_from: Any, tiles: Any, rows: Any, t
     distance: that of a hand before the belly is no second hand. Each size of tiles takes what is at
     its heights, with weights that change smoothly with place and height, so that neither noise nor
     steps show. Shares at different heights add up. Depths are compared with the tangent plane, so
-    that a surface does not shade itself.
+    that a surface does not shade itself. Most places have nothing between them and the light at the
+    heights of a size: the least depth around tells so at once.
 
     Args: p, n: (3,) place and unit normal; direct: cosine between n and the light, positive.
     shadow_from, tiles, rows, texel_m: as of `shade`.
@@ -161,6 +172,9 @@ def _lit(p: Any, n: Any, direct: Any, shadow_from: Any, tiles: Any, rows: Any, t
         x0, y0 = int(x_at) >> (level + 1), int(y_at) >> (level + 1)
         u, v = x_at / side - x0, y_at / side - y0
         near = depth - 2.0 * texel_m - 0.7 * steepness * (side - 1)
+        farthest = near + 1.5 * side * (abs(x_slope) + abs(y_slope)) + 1e-9
+        if level > 0 and tiles[first + y0, x0, 3] >= farthest - lowest:
+            continue
         for y in range(max(0, y0 - 1), min(count, y0 + 2)):
             row = near + y_slope * ((y + 0.5) * side - y_at)
             for x in range(max(0, x0 - 1), min(count, x0 + 2)):

@@ -83,7 +83,7 @@ class LineTrace:
     def pytest_unconfigure(self) -> None:
         """Write the answer."""
         sys.settrace(None)
-        threading.settrace(None)  # type: ignore[arg-type]
+        threading.settrace(None)
         found: dict[str, list[int] | None] = {}
         for file, lines in self.of_file.items():
             asked = [self.of_fixture[name] for name in self.fixtures[file]]

@@ -19,7 +19,7 @@ from study_server import Server
 from azee.cli.main import run
 from azee.spelling.study.answers import Answers
 from azee.spelling.study.design import comparisons
-from azee.spelling.study.questions import AGES, FLUENCIES
+from azee.spelling.study.questions import AGES, FLUENCIES, Choice
 from azee.spelling.timing.published import STUDIED
 
 STRENGTHS = {"variable": 3.0, "motion": 2.0, "normalised": 1.0, "constant": -1.0}
@@ -71,7 +71,7 @@ def test_a_study_is_filled_in_killed_half_way_resumed_and_analysed(
     answers_file = folder / "answers.sqlite"
     chosen = random.Random(3)
     design = Answers.open(answers_file).design
-    planted = {
+    planted: dict[int, list[Choice]] = {
         number: [
             "first"
             if chosen.random() < 1 / (1 + np.exp(STRENGTHS[p.second] - STRENGTHS[p.first]))
@@ -106,8 +106,8 @@ def test_a_study_is_filled_in_killed_half_way_resumed_and_analysed(
     server.kill()
     for number in (2, 3):  # who comes later does so without a browser
         person = kept.begin(f"key-{number}", AGES[0], FLUENCIES[0], "", "")
-        for page, choice in enumerate(planted[number], 1):
-            kept.choose(person, page, choice)
+        for at, choice in enumerate(planted[number], 1):
+            kept.choose(person, at, choice)
         kept.finish(person, REMARKS)
 
     assert run(["study", "analyse", str(answers_file), "-o", str(tmp_path / "out")]) == 0

@@ -54,7 +54,6 @@ def test_all_methods_answer_all_classes(tmp_path: Path, capsys: pytest.CaptureFi
     assert "LM kernel" in table
 
 
-@pytest.mark.long
 def test_problems_repeat_and_their_postures_solve_them(signer: Rig) -> None:
     for rig in (bare_armature(signer), pinned(signer)):
         maker, evaluator = Maker(rig), Evaluator(rig, Side.RIGHT)

@@ -46,6 +46,7 @@ def test_sources_are_utterances_lists_and_folders(tmp_path: Path) -> None:
     assert texts[0].source.name.endswith("list.jsonl:1")
 
 
+@pytest.mark.long
 def test_a_mistake_in_one_utterance_costs_that_one(tmp_path: Path) -> None:
     source = tmp_path / "some.azee"
     source.write_text(f"{TEXT}:nobody\n{TEXT}", encoding="utf-8")
@@ -64,6 +65,7 @@ def test_a_mistake_in_one_utterance_costs_that_one(tmp_path: Path) -> None:
     assert same == [same[0]] * 2
 
 
+@pytest.mark.long
 def test_one_bad_text_in_five_costs_itself_and_a_second_run_does_nothing(tmp_path: Path) -> None:
     source, out = listed(tmp_path, 5), tmp_path / "out"
     summary, _ = ran(source, out)
@@ -85,6 +87,7 @@ def test_one_bad_text_in_five_costs_itself_and_a_second_run_does_nothing(tmp_pat
     assert clips(out) == bytes_before
 
 
+@pytest.mark.long
 def test_what_changes_or_is_lost_is_done_again_and_nothing_else(tmp_path: Path) -> None:
     source, out = listed(tmp_path, 3), tmp_path / "out"
     few = Options((".bvh", ".json"))
@@ -116,6 +119,7 @@ def test_a_key_depends_on_the_libraries_that_are_used(tmp_path: Path) -> None:
     assert key() != before
 
 
+@pytest.mark.long
 def test_the_same_as_compile_writes(tmp_path: Path) -> None:
     source = tmp_path / "text.azee"
     source.write_text(TEXT, encoding="utf-8")

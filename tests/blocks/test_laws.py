@@ -189,6 +189,7 @@ def _items_of(edit: Edit) -> set[int]:
             return {edit.path[0]}
 
 
+@pytest.mark.long
 @settings(max_examples=EXAMPLES)
 @given(programs)
 def test_every_word_and_comment_of_a_text_is_in_one_block(text: str) -> None:

@@ -118,6 +118,7 @@ def test_bad_markers_change_little_and_make_no_jump(
     assert np.linalg.norm(fitted, axis=-1).max() < most
 
 
+@pytest.mark.long
 def test_no_marker_at_all_for_a_while_is_no_crash(held_out: Markers, model: CaptureModel) -> None:
     at = np.array(held_out.positions)
     at[100:120] = np.nan

@@ -219,6 +219,7 @@ def test_the_library_takes_paths_and_texts(tmp_path: Path) -> None:
         azee.compile(TWO).save(tmp_path / "missing" / "x.bvh")
 
 
+@pytest.mark.long
 def test_a_rig_that_lacks_a_name_signs_the_rest_or_is_refused() -> None:
     from dataclasses import replace
 

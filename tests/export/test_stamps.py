@@ -41,6 +41,7 @@ def test_the_report_counts_the_rules_of_the_text(made: azee.Compilation) -> None
     assert all(library["version"] and library["changed"] == [] for library in found["libraries"])
 
 
+@pytest.mark.long
 def test_a_glb_has_the_counts_of_the_report(made: azee.Compilation, tmp_path: Path) -> None:
     made.save(tmp_path / "a.glb")
     assert _asset(tmp_path / "a.glb")["extras"] == {"provenance": made.report_json()["provenance"]}

@@ -8,6 +8,7 @@ from dataclasses import fields, is_dataclass
 from itertools import pairwise
 from unicodedata import category
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from texts import texts
@@ -55,6 +56,7 @@ def inside(node: Item | Expr | Named) -> Iterator[tuple[Span, Span]]:
         yield from inside(part)
 
 
+@pytest.mark.long
 @given(texts)
 def test_any_text_gives_a_tree_or_diagnostics(text: str) -> None:
     parsed = parse(Source("any.azee", text))

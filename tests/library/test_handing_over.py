@@ -70,6 +70,7 @@ def test_what_is_copied_equals(
     assert_alike(made, copied(made))  # now that the report was read
 
 
+@pytest.mark.long
 def test_a_report_pickles_alone(made: Compilation) -> None:
     assert pickle.loads(pickle.dumps(made.report)).as_json() == made.report.as_json()
 

@@ -162,3 +162,15 @@ def test_a_rename_from_any_use_is_the_same() -> None:
         assert at is not None
         edits = renamed(texts, at.target, "mer")[document.uri]
         assert applied(RULE, edits).count("mer") == 6
+
+
+def test_an_argument_that_its_rule_lacks_is_no_use_of_anything() -> None:
+    rule = "def r\n    azop\n        'a\n        ^Mssp\n        key 1 (place @CH ^a)\n"
+    text = f"{rule}:r('b = ^Lssp)\n:r('a = ^Lssp)\n"
+    texts, document = Texts(), Document("untitled:a", text, 1)
+    texts.put(document)
+    analysis = texts.analysis(document)
+    assert analysis.at(text.index("'b") + 1) is None
+    given = analysis.at(text.index("'a = ") + 1)
+    assert given is not None
+    assert given.target.name == "a"

@@ -6,6 +6,10 @@ Without modules it takes those that differ from a commit (`--since`). It works i
 tree, one per worker. Results are kept in a file: a run that was interrupted goes on where it
 stopped, and what was tried is tried again only if the module or its tests have changed.
 
+Before, the tests of a module run once without a change, and it is noted which of their files run
+which of its lines. For a change only those run that run its statement, or that start processes;
+all of them if none does, as of loops that numba compiles.
+
 A change of which a test only tells that it takes too long counts as seen.
 """
 
@@ -29,8 +33,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from queue import SimpleQueue
 
+from line_trace import ANSWER, TRACED
 from related_tests import PACKAGES, Tree, chosen_modules
-from single_changes import Change, changes
+from single_changes import Change, changes, lines_of_statement
 
 ROOT = Path(__file__).resolve().parents[2]
 LEAST_S, TIMES_LONGER = 30.0, 5.0
@@ -62,6 +67,21 @@ class Mutant:
         return hashlib.sha256(text.encode()).hexdigest()[:20]
 
 
+@dataclass(frozen=True)
+class Baseline:
+    """Tests of a module without a change: seconds, and lines of it by file, none where unknown."""
+
+    seconds: float
+    lines: Mapping[str, frozenset[int] | None]
+
+    def concerned(self, tests: Sequence[str], lines: range) -> list[str]:
+        """Return the files that may see a change of some lines, in their order."""
+        ran = {test: self.lines.get(test) for test in tests}
+        if not any(found and not found.isdisjoint(lines) for found in ran.values()):
+            return [*tests]
+        return [t for t, found in ran.items() if found is None or not found.isdisjoint(lines)]
+
+
 @dataclass
 class Workplace:
     """A copy of the tree, in which one worker changes modules and runs tests."""
@@ -69,7 +89,7 @@ class Workplace:
     root: Path
     origin: Path
     marks: str
-    baselines: dict[tuple[Path, ...], float] = field(default_factory=dict)
+    baselines: dict[str, Baseline] = field(default_factory=dict)
 
     @classmethod
     def prepared(cls, origin: Path, root: Path, marks: str) -> Workplace:
@@ -87,40 +107,53 @@ class Workplace:
 
         Raises: MutationError: they fail, or there are none, without any change.
         """
-        limit = max(LEAST_S, TIMES_LONGER * self._baseline(mutant))
+        baseline = self.baseline(mutant)
+        limit = max(LEAST_S, TIMES_LONGER * baseline.seconds)
+        lines = lines_of_statement(mutant.source, mutant.change)
+        tests = baseline.concerned(self._names(mutant), lines)
         target = self.root / mutant.path.relative_to(self.origin)
         try:
             _replace(target, mutant.change.applied(mutant.source))
-            code = self._run(mutant.tests, limit)
+            code = self._run(tests, limit)
         finally:
             _replace(target, mutant.source)
         if code is None:
             return "too long"
         return "unseen" if code == PASSED else "seen"
 
-    def _baseline(self, mutant: Mutant) -> float:
-        """Seconds that the tests take without a change."""
-        if mutant.tests not in self.baselines:
-            began = time.monotonic()
-            code = self._run(mutant.tests, None)
-            if code == NO_TESTS or not mutant.tests:
+    def _names(self, mutant: Mutant) -> list[str]:
+        return [test.relative_to(self.origin).as_posix() for test in mutant.tests]
+
+    def baseline(self, mutant: Mutant) -> Baseline:
+        """What the tests of a module take and run without a change."""
+        if mutant.module not in self.baselines:
+            names, began = self._names(mutant), time.monotonic()
+            answer = self.root / "lines.json"
+            path = self.root / mutant.path.relative_to(self.origin)
+            code = self._run(names, None, {TRACED: str(path), ANSWER: str(answer)})
+            if code == NO_TESTS or not names:
                 raise MutationError(f"no test belongs to {mutant.module}")
             if code != PASSED:
-                names = " ".join(str(t.relative_to(self.origin)) for t in mutant.tests)
-                raise MutationError(f"tests fail without any change: {names}")
-            self.baselines[mutant.tests] = time.monotonic() - began
-        return self.baselines[mutant.tests]
+                raise MutationError(f"tests fail without any change: {' '.join(names)}")
+            lines = json.loads(answer.read_text(encoding="utf-8"))
+            self.baselines[mutant.module] = Baseline(
+                time.monotonic() - began,
+                {name: None if ran is None else frozenset(ran) for name, ran in lines.items()},
+            )
+        return self.baselines[mutant.module]
 
-    def _run(self, tests: Sequence[Path], limit_s: float | None) -> int | None:
+    def _run(
+        self, tests: Sequence[str], limit_s: float | None, traced: Mapping[str, str] | None = None
+    ) -> int | None:
         """Return pytest's exit code, None if it took too long."""
         if not tests:
             return NO_TESTS
         folders = [self.root, *(self.root / Path(f).parent for f in PACKAGES.values())]
-        searched = dict.fromkeys(str(folder) for folder in folders)
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(searched)}
+        searched = dict.fromkeys(str(folder) for folder in [*folders, Path(__file__).parent])
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(searched), **(traced or {})}
         command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider"]
         command += ["--no-header", "--tb=no", *(["-m", self.marks] if self.marks else [])]
-        command += [str(t.relative_to(self.origin)) for t in tests]
+        command += [*(["-p", "line_trace"] if traced else []), *tests]
         process = subprocess.Popen(
             command,
             cwd=self.root,

@@ -105,6 +105,19 @@ def changes(source: str) -> list[Change]:
     return [change for change in found if _differs(change.applied(source), before)]
 
 
+def lines_of_statement(source: str, change: Change) -> range:
+    """Return the lines of the statement that a change is in, without those of its body."""
+    around = [
+        node
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.stmt) and node.lineno <= change.line <= (node.end_lineno or 0)
+    ]
+    node = max(around, key=lambda node: node.lineno)
+    body: list[ast.stmt] = getattr(node, "body", [])
+    stop = body[0].lineno if body else (node.end_lineno or node.lineno) + 1
+    return range(node.lineno, max(stop, change.line + 1))
+
+
 def _differs(changed: str, before: str) -> bool:
     try:
         return ast.dump(ast.parse(changed)) != before

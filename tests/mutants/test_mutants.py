@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import ast
 import subprocess
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
-from mutation_test import main
+from mutation_test import Baseline, Workplace, main, sample
 from related_tests import Tree, chosen_modules
-from single_changes import changes
+from single_changes import changes, lines_of_statement
 
 ROOT = Path(__file__).parents[2]
 
@@ -61,6 +62,27 @@ def test_a_change_reads_as_a_diff_of_its_line() -> None:
     assert "-x = a < b\n+x = a <= b\n" in change.diff(source, "m.py") + "\n"
 
 
+def test_only_files_that_run_a_statement_or_start_processes_are_concerned() -> None:
+    ran = {"a": frozenset({1, 2}), "b": frozenset({1, 7}), "c": None}
+    baseline = Baseline(1.0, ran)
+    assert baseline.concerned(["c", "b", "a"], range(2, 4)) == ["c", "a"]
+    assert baseline.concerned(["c", "b", "a", "d"], range(1, 2)) == ["c", "b", "a", "d"]
+    assert baseline.concerned(["c", "b", "a"], range(8, 9)) == ["c", "b", "a"]  # no file runs it
+
+
+@pytest.mark.parametrize(
+    ("source", "lines"),
+    [
+        ("x = (\n    1,\n    2,\n)", {range(1, 5)}),
+        ("if a < b:\n    pass\n", {range(1, 2)}),
+        ("def f(a):\n    if (a\n            < 1):\n        return a\n", {range(2, 4)}),
+        ("try:\n    pass\nexcept E[1]:\n    pass\n", {range(1, 4)}),
+    ],
+)
+def test_a_change_is_in_its_statement_without_the_body(source: str, lines: set[range]) -> None:
+    assert {lines_of_statement(source, change) for change in changes(source)} == lines
+
+
 @pytest.mark.long
 def test_tests_belong_to_what_they_import_and_to_their_folder() -> None:
     tree = Tree(ROOT)
@@ -94,13 +116,58 @@ def test_shrunk() -> None:
 """
 
 
-def planted(root: Path, relation: str) -> Path:
+OTHERS = {
+    "tests/lang/test_nothing.py": """from azee.lang import sizes
+
+
+def test_nothing() -> None:
+    assert sizes
+""",
+    "tests/lang/test_fixture.py": """import pytest
+from azee.lang.sizes import grown
+
+
+@pytest.fixture(scope="session")
+def four() -> int:
+    return grown(3)
+
+
+def test_four(four: int) -> None:
+    assert four == 4
+""",
+    "tests/lang/test_process.py": """import subprocess, sys
+from azee.lang import sizes
+
+
+def test_process() -> None:
+    assert sizes
+    subprocess.run([sys.executable, "-c", ""], check=True)
+""",
+}
+
+
+@pytest.mark.slow
+def test_it_is_noted_which_files_of_tests_run_which_lines(tmp_path: Path) -> None:
+    root = planted(tmp_path / "origin", "== 2", OTHERS)
+    tree = Tree(root)
+    (mutant, *_) = sample(tree, ["azee.lang.sizes"], 1, 0)
+    baseline = Workplace.prepared(root, tmp_path / "copy", "").baseline(mutant)
+    assert baseline.lines == {
+        "tests/lang/test_fixture.py": {1, 2, 5},
+        "tests/lang/test_nothing.py": {1, 5},
+        "tests/lang/test_process.py": None,
+        "tests/lang/test_sizes.py": {1, 2, 5, 6},
+    }
+
+
+def planted(root: Path, relation: str, others: Mapping[str, str] | None = None) -> Path:
     """A tree with a module and its tests, which git knows."""
     for name, text in {
         "azee/__init__.py": "",
         "azee/lang/__init__.py": "",
         "azee/lang/sizes.py": MODULE,
         "tests/lang/test_sizes.py": TESTS.format(relation=relation),
+        **(others or {}),
     }.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(text, encoding="utf-8")

@@ -22,6 +22,12 @@ MODULES = {
 
 
 @cache
+def having(word: str) -> dict[str, Path]:
+    """Modules in whose text a word stands: few, so that not every file must be parsed."""
+    return {n: p for n, p in MODULES.items() if word in p.read_text(encoding="utf-8")}
+
+
+@cache
 def tree(path: Path) -> ast.Module:
     """The syntax tree of a file, read once."""
     return ast.parse(path.read_text(encoding="utf-8"))

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from sources import MODULES, ROOT, tree
+from sources import ROOT, having, tree
 from test_matches import named_members, unions
 
 from azee.clip.clip import Clip
@@ -48,7 +48,7 @@ def test_the_page_names_every_file_that_matches_over_points() -> None:
     points = unions()["Point"]
     matching = {
         path.relative_to(ROOT).as_posix()
-        for path in MODULES.values()
+        for path in having("match ").values()
         if named_members(tree(path)) & points
     }
     assert {*re.findall(r"- `([\w./]+)`", listed)} == matching

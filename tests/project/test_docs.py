@@ -43,6 +43,7 @@ def test_the_map_of_contributing_names_all_folders_and_modules() -> None:
     assert {p for p in there if not any(name.startswith(p) for name in named)} == set()
 
 
+@pytest.mark.long
 def test_readme_opens_with_a_small_picture_that_moves_and_repeats_without_a_jump() -> None:
     (_, opening, *_) = (ROOT / "README.md").read_text(encoding="utf-8").split("\n\n")
     (shown,) = LINK.findall(opening)

@@ -322,3 +322,18 @@ def test_a_trunk_that_leans_takes_both_elbows_along(signer: Rig) -> None:
     assert found.value == pytest.approx(0.0, abs=0.05)
     shifted = span(0.0, 2.0, limb="trunk", constraint=LEVEL)
     assert elbow_asymmetry_cm(leaning, [*both, shifted]) is None
+
+
+@pytest.mark.parametrize(("degrees", "symmetric"), [(2.4, True), (2.65, False)])
+def test_a_trunk_turned_by_five_degrees_from_its_mirror_image_is_turned(
+    signer: Rig, degrees: float, symmetric: bool
+) -> None:
+    """A turn is twice as far from its mirror image as from no turn."""
+    k = drawn(signer, 2.0, {"back_1.axial": still(degrees)})
+    both = [
+        span(0.5, 1.5, limb="palm_L", limbs=ARM_L, constraint=forearm_level(Side.LEFT)),
+        span(0.5, 1.5, limb="palm_R", limbs=ARM_R, constraint=forearm_level(Side.RIGHT)),
+    ]
+    shifted = span(0.0, 2.0, limb="trunk", constraint=LEVEL)
+    assert elbow_asymmetry_cm(k, both) is not None
+    assert (elbow_asymmetry_cm(k, [*both, shifted]) is not None) == symmetric

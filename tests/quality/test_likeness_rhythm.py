@@ -88,6 +88,15 @@ def test_blinks_are_counted_and_those_at_boundaries_told(signer: Rig) -> None:
     assert found.boundaries_share == pytest.approx((0.3 + 0.8 + 0.3) / 3.8, abs=0.02)
 
 
+@pytest.mark.parametrize(("late_s", "near"), [(0.14, 1.0), (0.155, 0.0)])
+def test_a_blink_is_at_a_boundary_within_150_milliseconds(
+    signer: Rig, late_s: float, near: float
+) -> None:
+    begin = TWO[0].start_s + late_s
+    found = blinks(lids(signer, (begin, begin + 0.1)), TWO)
+    assert found.at_boundaries_share == near
+
+
 def test_closed_eyes_and_lids_that_follow_the_eyes_do_not_blink(signer: Rig) -> None:
     assert blinks(lids(signer, (1.0, 1.5)), TWO).times_s == ()
     k = lids(signer, (1.0, 1.2))

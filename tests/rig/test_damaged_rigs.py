@@ -70,6 +70,7 @@ def test_the_mesh_of_another_body_is_refused(
         load_rig(tmp_path)
 
 
+@pytest.mark.long
 def test_every_rig_that_ships_names_its_mesh_and_is_sound(tmp_path: Path) -> None:
     for name in ("signer", "child", "heavy", "game"):
         folder = load_rig(name).folder

@@ -74,6 +74,15 @@ def test_without_giving_way_the_skin_would_enter_itself(signer: Rig) -> None:
     assert all(np.linalg.norm(np.array(p.point) - worst.point) > 0.02 for p in near)
 
 
+@pytest.mark.parametrize(("joint", "limit"), [("2.flexion", "upper"), ("1.roll", "lower")])
+def test_a_thumb_beside_its_own_hand_is_not_in_it(signer: Rig, joint: str, limit: str) -> None:
+    """Parts end where their skin does: the thumb's first triangles bound the thumb alone."""
+    c = signer.coordinates
+    q = np.array(c.idle)
+    q[c.index[f"thumb_R_{joint}"]] = getattr(c, limit)[c.index[f"thumb_R_{joint}"]]
+    assert mesh_penetration(signer, q, parts={"thumb_R", "arm_R"}) == ()
+
+
 def test_only_thumbs_give_way_and_only_where_something_is_in_their_way(signer: Rig) -> None:
     index = signer.coordinates.index
     spread = {"thumb_R_1.flexion": -0.9, "thumb_R_1.abduction": 0.2, "index_R_2.flexion": 1.0}

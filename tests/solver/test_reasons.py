@@ -10,7 +10,16 @@ import numpy as np
 import pytest
 
 from azee_rig.rig import Rig
-from azee_solver.constraint import BoneAxis, Constraint, Look, Orient, Place, Relation, Rotate
+from azee_solver.constraint import (
+    BoneAxis,
+    Constraint,
+    Look,
+    Morph,
+    Orient,
+    Place,
+    Relation,
+    Rotate,
+)
 from azee_solver.geometry import Bone, FreePoint, Side, Site, Vec
 from azee_solver.solve import solve
 from azee_solver.task import Task
@@ -85,6 +94,16 @@ def test_a_part_that_was_left_still_is_named(signer: Rig) -> None:
     """Looking up takes the head back; leaning back, the signer could turn it besides."""
     found = reasons(signer, Look(UP), turn(HEAD, UP, 20))
     assert found == {1: "could be met if the lower back and the upper back moved too"}
+
+
+def test_joints_that_nothing_but_another_constraint_sets_are_not_named_for_a_third(
+    signer: Rig,
+) -> None:
+    """The morph sets joints of the back, which the turn of the head could do without."""
+    spine = Morph("spine_extended", None, 0.1)
+    found = reasons(signer, Look(UP), turn(HEAD, UP, 20), spine)
+    assert found[0] == "needs joints that `morph 'spine_extended` sets"
+    assert found[1] == "could be met if the lower back and the upper back moved too"
 
 
 def test_the_body_is_named_where_it_stops_a_constraint(signer: Rig) -> None:

@@ -186,6 +186,7 @@ def _answered(path: Path, people: int, planted: dict[str, float], seed: int) -> 
     return answers
 
 
+@pytest.mark.long
 def test_planted_preferences_come_out(tmp_path: Path) -> None:
     planted = {"variable": 0.9, "motion": 0.8, "normalised": 0.3, "constant": -1.0}
     found = analysed(_filled(tmp_path / "a.sqlite", 25, planted))

@@ -19,6 +19,7 @@ from study_server import Server
 from azee.cli.main import run
 from azee.spelling.study.answers import Answers
 from azee.spelling.study.design import comparisons
+from azee.spelling.study.questions import AGES, FLUENCIES, Choice
 from azee.spelling.timing.published import STUDIED
 
 STRENGTHS = {"variable": 3.0, "motion": 2.0, "normalised": 1.0, "constant": -1.0}
@@ -70,39 +71,44 @@ def test_a_study_is_filled_in_killed_half_way_resumed_and_analysed(
     answers_file = folder / "answers.sqlite"
     chosen = random.Random(3)
     design = Answers.open(answers_file).design
-    planted: dict[int, list[str]] = {}
-    for number in (1, 2, 3):
-        planted[number] = [
+    planted: dict[int, list[Choice]] = {
+        number: [
             "first"
             if chosen.random() < 1 / (1 + np.exp(STRENGTHS[p.second] - STRENGTHS[p.first]))
             else "second"
             for p in comparisons(design, number)
         ]
-        (tmp_path / "choices.json").write_text(
-            json.dumps({"choices": planted[number], "remarks": REMARKS})
+        for number in (1, 2, 3)
+    }
+    (tmp_path / "choices.json").write_text(
+        json.dumps({"choices": planted[1], "remarks": REMARKS}), encoding="utf-8"
+    )
+    done = threading.Event()
+    killer = threading.Thread(target=_kill_half_way, args=(server, answers_file, [20, 31], done))
+    killer.start()
+    try:
+        pictures = os.environ.get("STUDY_PICTURES", "")
+        told = json.loads(
+            browser("study_page.mjs", server.url, tmp_path / "choices.json", pictures)
         )
-        done = threading.Event()
-        kills = [20, 31] if number == 1 else []
-        killer = threading.Thread(target=_kill_half_way, args=(server, answers_file, kills, done))
-        killer.start()
-        try:
-            pictures = os.environ.get("STUDY_PICTURES", "") if number == 1 else ""
-            told = json.loads(
-                browser("study_page.mjs", server.url, tmp_path / "choices.json", pictures)
-            )
-        finally:
-            done.set()
-            killer.join()
-        assert (told["unplayed"], told["foreign"], told["complaints"]) == ([], [], [])
-        assert (told["restarts"] > 0) == (number == 1)
-        assert len(told["acknowledged"]) >= 44
-        kept = Answers.open(answers_file)
-        person = kept.participants()[number - 1]
-        choices = kept.choices(person)
-        assert {page: choices[int(page)] for page in told["acknowledged"]} == told["acknowledged"]
-        assert [choices[page] for page in range(1, 49)] == planted[number]
-        assert person.finished
+    finally:
+        done.set()
+        killer.join()
+    assert (told["unplayed"], told["foreign"], told["complaints"]) == ([], [], [])
+    assert told["restarts"] > 0
+    assert len(told["acknowledged"]) >= 44
+    kept = Answers.open(answers_file)
+    (person,) = kept.participants()
+    choices = kept.choices(person)
+    assert {page: choices[int(page)] for page in told["acknowledged"]} == told["acknowledged"]
+    assert [choices[page] for page in range(1, 49)] == planted[1]
+    assert person.finished
     server.kill()
+    for number in (2, 3):  # who comes later does so without a browser
+        person = kept.begin(f"key-{number}", AGES[0], FLUENCIES[0], "", "")
+        for at, choice in enumerate(planted[number], 1):
+            kept.choose(person, at, choice)
+        kept.finish(person, REMARKS)
 
     assert run(["study", "analyse", str(answers_file), "-o", str(tmp_path / "out")]) == 0
     found = json.loads((tmp_path / "out" / "analysis.json").read_text())

@@ -60,12 +60,12 @@ class Inbox:
         self.given_up: list[int] = []
 
     def put(self, message: Header) -> None:
-        """Take a message in; a text of the same page that waits is given up for it."""
+        """Take a message in; a text of the same page gives up its place in the queue for it."""
         with self._changed:
             if message["do"] in ("compile", "pose"):
                 self._quiet_from = time.monotonic() + self._quiet_s
             if message["do"] == "compile":
-                if older := self._texts.pop(message["client"], None):
+                if older := self._texts.get(message["client"]):
                     self.given_up.append(older["job"])
                 self._texts[message["client"]] = message
             elif message["do"] == "pose":

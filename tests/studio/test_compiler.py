@@ -46,8 +46,12 @@ def test_of_one_page_only_the_newest_text_waits() -> None:
     assert [inbox.take()[0]["job"] for _ in range(3)] == [3, 4, 9]
     inbox.put({"do": "compile", "client": 0, "job": 10})
     inbox.put({"do": "compile", "client": 0, "job": 11})
+    inbox.put({"do": "compile", "client": 1, "job": 16})
+    inbox.put({"do": "compile", "client": 0, "job": 17})
     assert inbox.newer(0)
-    assert inbox.take()[1] == [10]
+    message, given_up = inbox.take()
+    assert (message["job"], given_up) == (17, [10, 11])  # who types on does not wait for ever
+    assert inbox.take()[0]["job"] == 16
     inbox.put({"do": "picture", "job": 12})
     assert not inbox.has_urgent()
     inbox.put({"do": "compile", "client": 0, "job": 13})

@@ -220,5 +220,5 @@ export class Score {
 /** Returns a title of so many letters at most, with an ellipsis for those that are left out. */
 function shortened(title: string, most: number): string {
   if (title.length <= most) return title;
-  return most < 2 ? '' : `${title.slice(0, Math.floor(most) - 1)}…`;
+  return most < 3 ? '' : `${title.slice(0, Math.floor(most) - 1)}…`;
 }

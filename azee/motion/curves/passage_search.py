@@ -164,7 +164,7 @@ def _hand(overlaps: CapsuleOverlaps, side: Side) -> Hand:
 
 
 def _starts(
-    a: Array, b: Array, members: NDArray[np.int64], index: Mapping[str, int], side: str
+    a: Array, b: Array, members: NDArray[np.int64], index: Mapping[str, int], side: Side
 ) -> Iterator[Array]:
     """Yield offsets to start from, (2 n,): early and late ones of every coordinate.
 
@@ -173,19 +173,13 @@ def _starts(
 
     Args: a, b: (n,) the coordinates at both ends.
     """
-    column = {int(v): i for i, v in enumerate(members)}
-    thumb = np.zeros(len(members), dtype=np.bool_)
-    for name, v in index.items():
-        if name.startswith(f"thumb_{side}") and v in column:
-            thumb[column[v]] = True
+    thumb = np.isin(members, [v for n, v in index.items() if n.startswith(f"thumb_{side}")])
 
     def shape(*parts: Mapping[str, float]) -> Array:
         out = np.zeros(len(members))
         for part in parts:
             for name, angle in part.items():
-                v = index.get(name.format(S=side), -1)
-                if v in column:
-                    out[column[v]] += angle
+                out[members == index.get(name.format(S=side), -1)] += angle
         return out
 
     turn = 0.4 * (b - a)
@@ -202,7 +196,11 @@ def _by_cost(
     search: OffsetSearch, starts: Sequence[Array], pairs: NDArray[np.int64], allowed: Array
 ) -> list[Array]:
     """Return the starts in the order of what they cost, which one call measures."""
-    wanted = np.concatenate([search.offset_by(start) for start in starts])
+    wanted = np.tile(search.q, (len(starts), 1, 1))
+    for half in np.split(np.arange(len(search.members)), len(PEAKS)):
+        weighted = search.weights[:, half] * np.stack(starts)[:, None, half]
+        wanted[:, :, search.members[half]] += weighted
+    wanted = wanted.reshape(-1, wanted.shape[-1])
     q = np.clip(wanted, search.lower, search.upper)
     depths = search.overlaps.depths(q, search.axis_distances, pairs)
     beyond = np.maximum(depths.reshape(len(starts), *allowed.shape) - allowed, 0.0)

@@ -20,6 +20,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.clip.spline import minimum_jerk
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.offset_search import Offset, OffsetSearch
 from azee.motion.curves.via_points import ViaPoint
@@ -42,6 +43,12 @@ WORTHWHILE = 0.9
 """Offsets are used if they leave at most this share of the shortfall."""
 TRIES = 8
 """So many starts are searched from."""
+SAMPLES = 16
+"""On a way, its ends not counted."""
+_EVEN, _FINE = np.linspace(0.0, 1.0, SAMPLES + 2), np.linspace(0.0, 1.0, 1001)
+SHARES: Array = (_EVEN + np.interp(_EVEN, minimum_jerk(_FINE), _FINE)) / 2.0
+"""When a way is measured, as shares of its time: between even steps in time and even steps of the
+joints. Half-way all move fastest, and a thumb crosses a finger within .03 s of .2 s."""
 GRID_RAD = 0.0005
 """Ways are told apart by coordinates in steps of this: a fingertip moves by .1 mm."""
 MOST_KNOWN = 4000
@@ -83,7 +90,7 @@ class PassageSearch:
     ) -> Array | None:
         """Return the offsets of the early and the late via point, (2 n,); none if none helps.
 
-        Args: q: (T, V) at even steps of the way, ends included. members: (n,) the coordinates that
+        Args: q: (T, V) at the `SHARES` of the way. members: (n,) the coordinates that
             are free. span_s: how long the way takes.
         """
         own = self.hands[side].coordinates
@@ -105,7 +112,7 @@ class PassageSearch:
         self, q: Array, members: NDArray[np.int64], span_s: float, side: Side
     ) -> Array | None:
         bells = via_points(members, 0.0, span_s)
-        weight = np.stack([bell.weight(np.linspace(0.0, span_s, len(q))) for bell in bells])
+        weight = np.stack([bell.weight(span_s * SHARES) for bell in bells])
         speed, acceleration = np.array([bell.fastest for bell in bells]).T
         most = np.minimum(MOST_RAD_S / speed, MOST_RAD_S2 / acceleration)
         search = OffsetSearch(

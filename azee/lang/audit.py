@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 from azee.lang.conflict import orient_conflict
 from azee.lang.fault import did_you_mean
@@ -89,22 +90,27 @@ def _turn_ends(
 def _never_was(found: list[Leaf], where: Callable[[Constraint], Span]) -> Iterator[Diagnostic]:
     """Find points as they were at the end of blocks that there are not."""
     for leaf in found:
-        around = {
-            block.name
-            for own, group in zip(leaf.path, leaf.parents, strict=True)
-            for block in group.blocks
-            if block.name != own
-        }
-        for constraint in _constraints(leaf):
-            for was in _wases(constraint):
+        recalling = [(c, was) for c in _constraints(leaf) for was in _points_as_they_were(c)]
+        if recalling:
+            around = {
+                block.name
+                for own, group in zip(leaf.path, leaf.parents, strict=True)
+                for block in group.blocks
+                if block.name != own
+            }
+            for constraint, was in recalling:
                 if was.block not in around:
                     message = f"there is no block `{was.block}` beside this one or around it"
                     help_ = did_you_mean(was.block, sorted(around), "'")
                     yield Diagnostic("unknown-block", message, where(constraint), help=help_)
 
 
+@lru_cache(maxsize=4096)
+def _points_as_they_were(constraint: Constraint) -> tuple[Was, ...]:
+    return tuple(_wases(constraint))
+
+
 def _wases(node: object) -> Iterator[Was]:
-    """Yield the points as they were of a constraint."""
     if isinstance(node, Was):
         yield node
     elif isinstance(node, tuple):

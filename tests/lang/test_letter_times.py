@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from evaluations import found, value
+from evaluations import found as mistakes
+from evaluations import value
 
 from azee.lang.operators.spelling import TIMINGS
 from azee.lang.program import evaluate_expression
@@ -17,7 +18,11 @@ def rows(expression: str) -> list[list[object]]:
     listed = value(expression)
     assert isinstance(listed, ListValue)
     assert listed.size == 1 + sum(row.size for row in listed.content)
-    return [[number.content for number in row.content] for row in listed.content]
+    found: list[list[object]] = []
+    for row in listed.content:
+        assert isinstance(row, ListValue)
+        found.append([number.content for number in row.content])
+    return found
 
 
 def test_the_timings_are_those_of_the_models() -> None:
@@ -46,7 +51,7 @@ def test_words_have_times_of_their_own_and_spaces_none() -> None:
     ],
 )
 def test_what_is_wrong_is_told(expression: str, code: str) -> None:
-    assert [place.split()[0] for place in found(expression)] == [code]
+    assert [place.split()[0] for place in mistakes(expression)] == [code]
 
 
 def test_a_spelled_text_takes_a_timing_a_speed_and_a_factor_for_transitions() -> None:

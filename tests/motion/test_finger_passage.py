@@ -15,7 +15,7 @@ from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.finger_passage import FingerPassage
 from azee.motion.curves.limb_curves import LimbCurve, LimbKey
 from azee.motion.curves.movement import Movement
-from azee.motion.curves.passage_search import MOST_RAD_S, PassageSearch
+from azee.motion.curves.passage_search import GRID_RAD, MOST_RAD_S, SAMPLES, SHARES, PassageSearch
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import Limbs
 from azee.score.interval import Interval
@@ -112,3 +112,23 @@ def test_a_thumb_that_a_block_needs_stays_where_it_is() -> None:
     thumb = movement.limbs.members["thumb_R"]
     for via_point in passed(movement, needed).via_points:
         assert not {*thumb.tolist()} & {*via_point.members.tolist()}
+
+
+def test_a_way_is_searched_once_and_what_is_found_does_not_depend_on_what_came_before() -> None:
+    movement = straight("thumb over a fist", "thumb between two fingers")
+    grid = np.round(movement.sample(WAY_S * SHARES) / GRID_RAD) * GRID_RAD
+    members = movement.limbs.members["thumb_R"]
+    one, other = (PassageSearch(overlaps(), load_rig().coordinates) for _ in range(2))
+    found = one.offsets(grid, members, WAY_S, "R")
+    assert found is not None
+    assert one.offsets(grid + GRID_RAD / 5, members, WAY_S + 1e-5, "R") is found
+    assert other.offsets(grid - GRID_RAD / 5, members, WAY_S, "R") == pytest.approx(found, abs=0)
+    assert one.offsets(grid, members, 2 * WAY_S, "R") is not found
+    assert one.offsets(grid + GRID_RAD, members, WAY_S, "R") is not found
+
+
+def test_most_samples_of_a_way_are_half_way() -> None:
+    steps = np.diff(SHARES)
+    assert SHARES[[0, -1]] == pytest.approx([0.0, 1.0])
+    assert np.argmin(steps) in (SAMPLES // 2 - 1, SAMPLES // 2, SAMPLES // 2 + 1)
+    assert np.all(steps > 0)

@@ -18,6 +18,8 @@ from azee_solver.constraint import Place
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side, SitePoint
 from azee_solver.penetration import meant_contact, mesh_penetration
+from benchmarks.letters_on_bodies import missed
+from benchmarks.spelled_pairs import SEEN_M, measured
 
 LETTERS = [
     (language, name)
@@ -72,6 +74,24 @@ def test_a_letter_misses_nothing_and_no_finger_passes_through_another(
         if p.depth_m > OVERLAP_M and not {p.limb[:3], p.body[:3]} & {"arm", "tru", "hea"}
     ]
     assert fingers == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("body", "language", "letters"),
+    [("child", "tid", "J"), ("heavy", "asl", "J"), ("heavy", "tid", "BJT"), ("game", "asl", "J"),
+     ("game", "tid", "AEJ")],
+)  # fmt: skip
+def test_letters_fit_hands_and_arms_of_other_sizes(body: str, language: str, letters: str) -> None:
+    rig = load_rig(body)
+    for letter in letters:
+        assert missed(language, f"letter-{letter}", rig) == []
+
+
+@pytest.mark.slow
+def test_a_thumb_that_flies_past_a_finger_is_led_round_it() -> None:
+    """From Q to U it would be inside the middle finger for one frame of 60 Hz."""
+    assert measured("QU", 0.2, load_rig()).depth_mm < 1000.0 * SEEN_M
 
 
 @pytest.mark.long

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.curves.movement import Movement
-from azee.motion.curves.passage_search import PassageSearch, Side, via_points
+from azee.motion.curves.passage_search import SHARES, PassageSearch, Side, via_points
 from azee.motion.curves.via_points import ViaPoint
 from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import is_finger
@@ -31,8 +31,6 @@ Array = NDArray[np.float64]
 
 DEEP_M = 0.0015
 """Digits that overlap deeper, and than at both ends of the way, collide."""
-SAMPLES = 12
-"""On a way, its ends not counted."""
 LONGEST_S = 1.5
 """Longer ways return to rest meanwhile, or are no ways between handshapes."""
 SIDES: tuple[Side, Side] = ("L", "R")
@@ -112,4 +110,4 @@ class _Way:
     @property
     def times(self) -> Array:
         """Instants at which it is measured, ends included."""
-        return np.linspace(self.start_s, self.end_s, SAMPLES + 2)
+        return self.start_s + (self.end_s - self.start_s) * SHARES

@@ -20,6 +20,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from azee.clip.spline import minimum_jerk
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.offset_search import Offset, OffsetSearch
 from azee.motion.curves.via_points import ViaPoint
@@ -42,6 +43,12 @@ WORTHWHILE = 0.9
 """Offsets are used if they leave at most this share of the shortfall."""
 TRIES = 8
 """So many starts are searched from."""
+SAMPLES = 16
+"""On a way, its ends not counted."""
+_EVEN, _FINE = np.linspace(0.0, 1.0, SAMPLES + 2), np.linspace(0.0, 1.0, 1001)
+SHARES: Array = (_EVEN + np.interp(_EVEN, minimum_jerk(_FINE), _FINE)) / 2.0
+"""When a way is measured, as shares of its time: between even steps in time and even steps of the
+joints. Half-way all move fastest, and a thumb crosses a finger within .03 s of .2 s."""
 GRID_RAD = 0.0005
 """Ways are told apart by coordinates in steps of this: a fingertip moves by .1 mm."""
 MOST_KNOWN = 4000
@@ -83,7 +90,7 @@ class PassageSearch:
     ) -> Array | None:
         """Return the offsets of the early and the late via point, (2 n,); none if none helps.
 
-        Args: q: (T, V) at even steps of the way, ends included. members: (n,) the coordinates that
+        Args: q: (T, V) at the `SHARES` of the way. members: (n,) the coordinates that
             are free. span_s: how long the way takes.
         """
         own = self.hands[side].coordinates
@@ -105,7 +112,7 @@ class PassageSearch:
         self, q: Array, members: NDArray[np.int64], span_s: float, side: Side
     ) -> Array | None:
         bells = via_points(members, 0.0, span_s)
-        weight = np.stack([bell.weight(np.linspace(0.0, span_s, len(q))) for bell in bells])
+        weight = np.stack([bell.weight(span_s * SHARES) for bell in bells])
         speed, acceleration = np.array([bell.fastest for bell in bells]).T
         most = np.minimum(MOST_RAD_S / speed, MOST_RAD_S2 / acceleration)
         search = OffsetSearch(
@@ -164,7 +171,7 @@ def _hand(overlaps: CapsuleOverlaps, side: Side) -> Hand:
 
 
 def _starts(
-    a: Array, b: Array, members: NDArray[np.int64], index: Mapping[str, int], side: str
+    a: Array, b: Array, members: NDArray[np.int64], index: Mapping[str, int], side: Side
 ) -> Iterator[Array]:
     """Yield offsets to start from, (2 n,): early and late ones of every coordinate.
 
@@ -173,19 +180,13 @@ def _starts(
 
     Args: a, b: (n,) the coordinates at both ends.
     """
-    column = {int(v): i for i, v in enumerate(members)}
-    thumb = np.zeros(len(members), dtype=np.bool_)
-    for name, v in index.items():
-        if name.startswith(f"thumb_{side}") and v in column:
-            thumb[column[v]] = True
+    thumb = np.isin(members, [v for n, v in index.items() if n.startswith(f"thumb_{side}")])
 
     def shape(*parts: Mapping[str, float]) -> Array:
         out = np.zeros(len(members))
         for part in parts:
             for name, angle in part.items():
-                v = index.get(name.format(S=side), -1)
-                if v in column:
-                    out[column[v]] += angle
+                out[members == index.get(name.format(S=side), -1)] += angle
         return out
 
     turn = 0.4 * (b - a)
@@ -202,7 +203,11 @@ def _by_cost(
     search: OffsetSearch, starts: Sequence[Array], pairs: NDArray[np.int64], allowed: Array
 ) -> list[Array]:
     """Return the starts in the order of what they cost, which one call measures."""
-    wanted = np.concatenate([search.offset_by(start) for start in starts])
+    wanted = np.tile(search.q, (len(starts), 1, 1))
+    for half in np.split(np.arange(len(search.members)), len(PEAKS)):
+        weighted = search.weights[:, half] * np.stack(starts)[:, None, half]
+        wanted[:, :, search.members[half]] += weighted
+    wanted = wanted.reshape(-1, wanted.shape[-1])
     q = np.clip(wanted, search.lower, search.upper)
     depths = search.overlaps.depths(q, search.axis_distances, pairs)
     beyond = np.maximum(depths.reshape(len(starts), *allowed.shape) - allowed, 0.0)

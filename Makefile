@@ -11,6 +11,9 @@ PACKAGES := $(patsubst %,%/node_modules/.package-lock.json,tests/node azee/web)
 TYPED := tests benchmarks examples packaging
 FIXTURES := $(wildcard tests/*/conftest.py)
 
+# Every process that a test starts would compile all modules anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: docs package platform-wheel release-check wheel-test-oldest wheel-test-newest web mutants families-table motion-table readme-picture help demo test check format bench bench-solver bench-blender bench-tracker fuzz fuzz-bvh fuzz-bodies examples films pictures wheel-test node
 
 help: ## list the targets

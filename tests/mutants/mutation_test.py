@@ -150,7 +150,12 @@ class Workplace:
             return NO_TESTS
         folders = [self.root, *(self.root / Path(f).parent for f in PACKAGES.values())]
         searched = dict.fromkeys(str(folder) for folder in [*folders, Path(__file__).parent])
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(searched), **(traced or {})}
+        environment = {
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join(searched),
+            "PYTHONDONTWRITEBYTECODE": "1",  # a change of the same second and size would be missed
+            **(traced or {}),
+        }
         command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider"]
         command += ["--no-header", "--tb=no", *(["-m", self.marks] if self.marks else [])]
         command += [*(["-p", "line_trace"] if traced else []), *tests]

@@ -30,7 +30,7 @@ esac
 # What the tests read besides the packages; node_modules is lent, not copied.
 mkdir "$place/checkout"
 cp -r pyproject.toml docs editors examples benchmarks lexicons "$place/checkout"
-tar --exclude=node_modules -cf - tests | tar -xf - -C "$place/checkout"
+tar --exclude=node_modules --exclude=__pycache__ -cf - tests | tar -xf - -C "$place/checkout"
 if [ -d tests/node/node_modules ]; then
   ln -s "$root/tests/node/node_modules" "$place/checkout/tests/node/node_modules"
 fi

@@ -1,4 +1,4 @@
-"""Puts kernels compiled ahead of time into a wheel, which is then for one platform: `make package`.
+"""Puts kernels compiled ahead of time into a wheel for one platform: `make platform-wheel`.
 
 Hatch calls it only if HATCH_BUILD_HOOK_ENABLE_CUSTOM is set. Otherwise the wheel is pure, and
 kernels are compiled on the first run.

@@ -3,7 +3,6 @@ import { h, svg } from './elements';
 import type { Block, Constraint } from './protocol';
 
 const ROW = 26, RULER = 20, PAD = 12, LEAST_WIDTH = 4, LEAST_TITLED = 18;
-const LETTER = 6.8; // pixels that a letter of a title takes, about
 
 interface Row {
   block: Block;
@@ -163,9 +162,9 @@ export class Score {
       svg('title', {}, `${block.title}, ${times}`),
       svg('rect', { x, y: y + 1, width: wide, height: ROW - 3, rx: 4 }),
     );
-    if (wide >= LEAST_TITLED) // a drawing inside cuts off wide letters that have no room
-      group.append(svg('svg', { x, y, width: wide - 3, height: ROW },
-        svg('text', { x: 6, y: 17 }, shortened(block.title, (wide - 9) / LETTER))));
+    if (wide >= LEAST_TITLED) // as HTML, which shortens what has no room by an ellipsis
+      group.append(svg('foreignObject', { x: x + 6, y: y + 1, width: wide - 9, height: ROW - 3 },
+        h('div', { class: 'block-title' }, block.title)));
     if (state) group.append(svg('circle', { cx: x + wide - 6, cy: y + 7, r: 3.5, class: 'flag' }));
     return group;
   }
@@ -215,10 +214,4 @@ export class Score {
       this.pick(-1, false);
     }
   }
-}
-
-/** Returns a title of so many letters at most, with an ellipsis for those that are left out. */
-function shortened(title: string, most: number): string {
-  if (title.length <= most) return title;
-  return most < 3 ? '' : `${title.slice(0, Math.floor(most) - 1)}…`;
 }

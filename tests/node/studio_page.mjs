@@ -313,7 +313,9 @@ async function moved() {
   own.push((await told.next()).value);
   await page.click('.notice[data-name=offline] button');
   await page.waitForURL(`${own[1]}**`);
-  await page.waitForFunction(() => window.azeeStudio?.document.state === 'kept');
+  // What the server keeps is shown first, then what was brought along.
+  await page.waitForFunction(() => window.azeeStudio?.document.state === 'kept'
+    && azeeStudio.editor.text.includes('after'));
   return { text: await text(page), address: page.url() };
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,11 +13,12 @@ from movements import ARM_L, ARM_R, drawn, moves, span, still, then
 from azee.quality.kinematics import Kinematics
 from azee.quality.repetitions import repetitions
 from azee.quality.signing_dynamics import SHOULDERS_M
+from azee.quality.task_spans import TaskSpan
 from azee.quality.transitions import correlation, transitions
 from azee.quality.wrists import largest_wrist_acceleration, largest_wrist_speed, wrist_bend
 from azee_rig.rig import Rig
-from azee_solver.constraint import Transpath
-from azee_solver.geometry import Circle, Side, Site, Straight, Vec
+from azee_solver.constraint import Place, Transpath
+from azee_solver.geometry import Circle, Side, Site, Straight, Vec, WorldPoint
 
 SHARE = 1.0 - 2.0 * (0.5 - math.sqrt(0.25 - math.sqrt(0.1 / 16.0)))
 """Of a minimum-jerk movement that is faster than a tenth of its peak: 16 τ²(1 − τ)² = .1."""
@@ -303,6 +305,46 @@ def test_another_way_is_no_repetition(signer: Rig) -> None:
     assert len(repetitions(same, back)) == 1
     other = [back[0], span(1.5, 2.0, limbs=ARM_R, moving=True, constraint=CIRCLE)]
     assert repetitions(same, other) == ()
+
+
+def test_a_way_to_another_place_is_no_repetition(signer: Rig) -> None:
+    """As when a score damps what it repeats: the second goes less far because it is told to."""
+    course = then(moves(0.3, 0.5, 0.5), moves(-0.3, 1.2, 0.5), moves(0.25, 2.0, 0.5))
+    k = drawn(signer, 3.0, wrists={"R": course, "L": still()})
+    ways = [
+        span(start, start + 0.5, limbs=ARM_R, moving=True, constraint=STRAIGHT)
+        for start in (0.5, 2.0)
+    ]
+
+    def ends(*left_m: float) -> list[TaskSpan]:
+        return [
+            span(start, start + 0.1, constraint=Place(STRAIGHT.site, WorldPoint(x, 1.0, 0.0)))
+            for start, x in zip((1.0, 2.5), left_m, strict=True)
+        ]
+
+    assert len(repetitions(k, ways)) == 1
+    assert len(repetitions(k, [*ways, *ends(0.3, 0.3)])) == 1
+    assert repetitions(k, [*ways, *ends(0.3, 0.25)]) == ()
+    begins = [replace(s, start_s=s.start_s - 0.6, end_s=s.end_s - 0.6) for s in ends(0.0, 0.1)]
+    assert repetitions(k, [*ways, *begins]) == ()
+
+
+@pytest.mark.parametrize("bone", ["head", "back_2"])
+def test_a_way_is_the_same_on_a_part_that_turned(signer: Rig, bone: str) -> None:
+    """A hand that strokes the cheek again goes the same way, though the head is turned now."""
+    turns = {f"{bone}.axial": moves(15.0, 1.2, 0.6)}
+    k = drawn(signer, 3.0, turns)
+    course = then(moves(0.2, 0.5, 0.5), moves(-0.2, 1.2, 0.5), moves(0.2, 2.0, 0.5))
+    along = np.stack([course(k.times_s), *np.zeros((2, len(k.times_s)))], axis=1)
+    carried = k.scale * k.joint(bone) + np.einsum("tij,tj->ti", k.rotation(bone), along)
+    ways = [
+        span(start, start + 0.5, limbs=ARM_R, moving=True, constraint=STRAIGHT)
+        for start in (0.5, 2.0)
+    ]
+    (found,) = repetitions(replace(k, ways={"R": carried}), ways)
+    assert found.difference_percent == pytest.approx(0.0, abs=1e-6)
+    (still_there,) = repetitions(drawn(signer, 3.0, wrists={"R": course}), ways)
+    assert still_there.difference_percent == pytest.approx(0.0, abs=1e-6)
 
 
 def test_the_angle_of_a_wrist_is_that_of_hand_and_forearm(signer: Rig) -> None:

@@ -32,7 +32,7 @@ DRIFT_HZ = (0.12, 2.2)
 SLOW_DRIFT_HZ = (0.1, 0.9)
 _SINES = 9
 DRIFT_DEG: Mapping[str, float] = {
-    "back": 0.35, "neck": 0.5, "head": 0.6, "eye": 0.12, "clav": 0.35, "arm": 0.4, "f_arm": 0.4,
+    "back": 0.35, "neck": 0.75, "head": 0.9, "eye": 0.12, "clav": 0.35, "arm": 0.4, "f_arm": 0.4,
     "palm": 0.4,
 }  # fmt: skip
 """Root mean square of the drift of coordinates, by the beginning of their bones' names."""
@@ -50,9 +50,9 @@ REACTION_DEG_S2_M = 0.12
 FOLLOWING_HZ = 0.9
 FOLLOWING_DEG_M: Mapping[str, tuple[float, float, float]] = {
     "back_1.axial": (3.0, 0.0, 0.0),
-    "head.axial": (5.0, 0.0, 0.0),
+    "head.axial": (7.0, 0.0, 0.0),
     "head.lateral": (-2.0, 0.0, 0.0),
-    "head.flexion": (0.0, -3.0, 0.0),
+    "head.flexion": (0.0, -4.5, 0.0),
     "back_1.flexion": (0.0, -1.0, 3.0),
 }
 """Turn of coordinates where the mean of the hands is by so many metres to the left, up, forward."""

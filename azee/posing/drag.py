@@ -48,6 +48,10 @@ OPTIONS = SolveOptions(far=False, patience=0, inertia=8.0)
 finds after half a second; with 30 as along a path (ADR 26) elbows lag behind by seconds."""
 YIELDING = 0.001
 """Factor of the weight of what a drag cannot be met with."""
+FIRM = 20.0
+"""Factor of the cost of overlap where a body that is drawn to be still leans into itself."""
+WAY = (1.0, 0.25, 0.5, 0.75)
+"""Shares of a step at which nothing may overlap: a hand does not jump to the back of the body."""
 DEEPER_M = 5e-4
 """An overlap that is deeper by less than it was at the instant is the same."""
 TOUCH_M = 0.02
@@ -94,7 +98,10 @@ class DragSolver:
         asked = {handle: self._constraint(handle, target) for handle, target in goals.items()}
         skeletal = {h: c for h, c in asked.items() if not self._is_facial(c)}
         beside = ik_tasks_at(linked, self.instant.time)
-        q, overlaps = self._followed(list(skeletal.values()), beside, start, free)
+        wanted = list(skeletal.values())
+        q, overlaps = self._followed(wanted, beside, start, free)
+        if overlaps:
+            q, overlaps = self._followed(wanted, beside, start, free, firm=FIRM)
         if overlaps:
             kept = [self._kept(c, start) for c in skeletal.values()]
             q, overlaps = self._followed(kept, beside, start, free)
@@ -141,14 +148,16 @@ class DragSolver:
         beside: Sequence[Task],
         start: Array,
         free: frozenset[int],
+        *,
+        firm: float = 1.0,
     ) -> tuple[Array, list[Overlap]]:
-        """Return the posture that does what is asked, and what of the body overlaps in it.
+        """Return the posture that does what is asked, and what overlaps there or on the way to it.
 
         These are steps 1 to 5 of the solver. Where what is in force keeps a handle from its target,
         it gets little weight, and the steps are made once more.
         """
         tasks = [*_tasks(asked), *beside]
-        moment = self._moment(tasks, start, free)
+        moment = self._moment(tasks, start, free, firm)
         relaxed, reach = RelaxedProblem(moment), least_reach(moment)
         sequence = GroupSequence(moment, relaxed)
         solution = sequence.solve(reach)
@@ -156,13 +165,19 @@ class DragSolver:
             relaxed.given_up |= dict.fromkeys(range(len(asked), len(tasks)), YIELDING)
             solution = sequence.solve(reach, solution)
         q = np.clip(solution.q, self._rig.coordinates.lower, self._rig.coordinates.upper)
-        found = self._moving(moment.body.obstacles.overlaps(q), free)
-        return q, self._too_deep(found)
+        obstacles = moment.body.obstacles
+        for share in WAY:
+            found = self._moving(obstacles.overlaps(start + share * (q - start)), free)
+            if deep := self._too_deep(found):
+                break
+        return q, deep
 
-    def _moment(self, tasks: Sequence[Task], start: Array, free: frozenset[int]) -> Moment:
+    def _moment(
+        self, tasks: Sequence[Task], start: Array, free: frozenset[int], firm: float
+    ) -> Moment:
         fixed = frozenset(range(len(start))) - free
         dominant = self.instant.evaluator.binding.dominant
-        options = replace(OPTIONS, fixed=fixed)
+        options = replace(OPTIONS, fixed=fixed, overlap=firm * OPTIONS.overlap)
         moment = Moment(self._rig, tasks, dominant, start, self._reference(free), options)
         moment.body.limits = self._comfortable(moment.start)
         return moment

@@ -59,6 +59,12 @@ def ahead(start: Array, share: float) -> Array:
     return np.asarray(start + np.array(offset))
 
 
+def aside(start: Array, share: float) -> Array:
+    """Twice an eight, .2 m wide and .16 m high: with the weak elbow to the flank and away."""
+    turn = 4 * math.pi * share
+    return np.asarray(start + (0.1 * math.sin(turn), 0.08 * math.sin(2 * turn), 0.0))
+
+
 def dragged(
     session: PosingSession, handle: str, path: Callable[[Array, float], Array], frames: int
 ) -> list[Frame]:
@@ -89,6 +95,7 @@ def test_a_site_follows_and_the_solver_is_fast(at_rest: PosingSession) -> None:
         (SPACE, 0.3, "@PA(s)", around),
         (":bien\n", 0.85, "@PA(s)", around),
         (":arbre\n", 0.5, "@H_BACK(w)", ahead),
+        (":arbre\n", 0.5, "@H_BACK(w)", aside),
         (":mignon\n", 0.4, "@M_TIP(s)", ahead),
     ],
 )
@@ -97,7 +104,7 @@ def test_for_ten_seconds_a_hand_follows(
 ) -> None:
     """At 30 frames a second: within 5 mm; `benchmarks/run.py posing` has the times.
 
-    Where the body is beside the hand, the way leads ahead of it.
+    Where the body is beside the hand, the way leads ahead of it; an elbow makes room by itself.
     """
     session = PosingSession.open(text, at_s, signer)
     frames = dragged(session, handle, path, 300)

@@ -43,6 +43,7 @@ from azee.motion.timing.pace import Pace
 from azee.motion.timing.performed import TIMINGS, Performance, Timing, performed
 from azee.motion.timing.recalled import recalled
 from azee.motion.timing.remembering import RememberingSolver
+from azee.motion.timing.way_round import turning_as_joints_do
 from azee.motion.timing.ways import Ways
 from azee.quality.constraint_results import constraint_results
 from azee.quality.likeness import likeness
@@ -144,6 +145,7 @@ def animate(
         postures = RememberingSolver(postures)
     at_rest = rest_posture(rig, rest, dominant)
     score = recalled(score, evaluator, selection, postures, at_rest)
+    score = turning_as_joints_do(score, evaluator, selection, postures, at_rest)
     performance, needed_s = Performance(score), None
     if timing == "performed":
         performance = performed(score, evaluator, selection, postures, pace, at_rest)

@@ -45,6 +45,9 @@ class ZigzagWay:
     is_wave: bool = False
 
 
+SAME_S = 1e-6
+"""Times nearer than this are one."""
+
 Way: TypeAlias = StraightWay | ArcWay | CircleWay | ZigzagWay
 
 
@@ -66,6 +69,11 @@ class Move:
     name: str
     way: Way
     site: Site | None = None
+
+    @property
+    def length_s(self) -> float:
+        """How long it takes."""
+        return self.end_s - self.start_s
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,11 +109,33 @@ class Phrase:
 
 
 def together(phrases: Iterable[Phrase]) -> Phrase:
-    """Return phrases at the same time, all stretched to the longest."""
+    """Return phrases at the same time, all stretched to the longest.
+
+    A hand that goes straight and in circles at once goes one way: what is straight moves its end.
+    """
     parts = list(phrases)
     longest = max((p.duration_s for p in parts), default=0.0)
     stretched = [p.at(0, longest / p.duration_s if p.duration_s else 1.0) for p in parts]
-    return joined(longest, stretched)
+    whole = joined(longest, stretched)
+    return replace(whole, moves=[m for m in whole.moves if not _is_within(m, whole.moves)])
+
+
+def _is_within(straight: Move, moves: Sequence[Move]) -> bool:
+    """Whether a straight way of a hand is part of other ways that it goes meanwhile."""
+    if not isinstance(straight.way, StraightWay):
+        return False
+    meanwhile = [
+        m
+        for m in moves
+        if m is not straight
+        and m.name == straight.name
+        and m.start_s < straight.end_s - SAME_S
+        and m.end_s > straight.start_s + SAME_S
+    ]
+    return any(
+        not isinstance(m.way, StraightWay) or m.length_s < straight.length_s - SAME_S
+        for m in meanwhile
+    )
 
 
 def joined(duration_s: float, parts: Sequence[Phrase]) -> Phrase:

@@ -72,7 +72,7 @@ def _ends(way: TaskSpan, spans: Sequence[TaskSpan]) -> tuple[Constraint | None, 
     after = [s for s in places if s.start_s - ADJACENT_S <= way.end_s <= s.end_s]
     first = max(before, key=lambda s: s.start_s, default=None)
     last = min(after, key=lambda s: s.end_s, default=None)
-    return first and first.constraint, last and last.constraint
+    return first.constraint if first else None, last.constraint if last else None
 
 
 def _difference(k: Kinematics, side: str, one: TaskSpan, two: TaskSpan) -> float | None:

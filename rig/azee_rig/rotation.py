@@ -66,12 +66,12 @@ def to_matrices(q: Floats) -> Floats:
     return R
 
 
-def part_turn(q: Floats, share: float) -> Floats:
+def part_turn(q: Floats, share: float, *, longer: bool = False) -> Floats:
     """Return rotations by a share, 0 … 1, of the angle about the same axes: quaternions, (…, 4).
 
-    The shorter way is taken: q with w < 0 counts as −q.
+    The shorter way is taken, for which q with w < 0 counts as −q, or the longer one.
     """
-    q = np.where(q[..., :1] < 0.0, -q, q)
+    q = np.where((q[..., :1] < 0.0) != longer, -q, q)
     sine = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
     angle = share * np.arctan2(sine, q[..., :1])
     along = np.where(sine > 1e-12, np.sin(angle) / np.where(sine > 1e-12, sine, 1.0), share)

@@ -142,11 +142,15 @@ class Evaluator:
             case Rotated(inner, axis, angle):
                 spin = paths.unit(self.vector(axis, frames, phase))
                 return paths.turned(self.vector(inner, frames, phase), spin, angle)
-            case Swing(from_, to):
+            case Swing(from_, to, beside, longer):
                 if from_ is None or to is None:
                     return np.full(3, np.nan)
                 first, last = self.vector(from_, frames, phase), self.vector(to, frames, phase)
-                return paths.swung(first, last, phase)
+                if beside is None or beside.start is None or beside.end is None:
+                    return paths.swung(first, last, phase)
+                one = self.vector(beside.start, frames, phase)
+                other = self.vector(beside.end, frames, phase)
+                return paths.turned_together(first, last, one, other, phase, longer=longer)
 
     def point(self, expr: Point, frames: Frames, phase: float = 0.0) -> Array:
         """Return a point in the world, (…, 3) metres; a dynamic one where it is at `phase`.

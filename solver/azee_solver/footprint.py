@@ -166,8 +166,8 @@ class _Reader:
             case Towards(start, end):
                 self.point(start)
                 self.point(end)
-            case Swing(start, end):
-                for side in (start, end):
+            case Swing(start, end, beside):
+                for side in (start, end, beside):
                     if side is not None:
                         self.vector(side)
 

@@ -181,10 +181,15 @@ class Swing:
     """`swing V W`: a dynamic direction, on the shorter arc from V to W while its block lasts.
 
     Without V and W, as `turning` makes it, they are those of the orientations before and after.
+    beside: what the other axis of the bone does meanwhile, where that turns, too. Both then go
+    along as the bone turns about one axis from one orientation to the other. longer: by the longer
+    of the two ways round.
     """
 
     start: Vector | None
     end: Vector | None
+    beside: Swing | None = None
+    longer: bool = False
 
 
 Vector: TypeAlias = (

@@ -12,6 +12,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from azee_rig.rotation import part_turn, to_matrices, to_quaternions
+
 Array = NDArray[np.float64]
 
 TINY = 1e-9
@@ -58,6 +60,38 @@ def swung(start: Array, end: Array, t: ArrayLike) -> Array:
     opposite = (np.pi - angle < 1e-6) & (u > 0.0) & (u < 1.0)
     between = np.where(alike | (u <= 0.0), a, np.where(u >= 1.0, b, between))
     return np.asarray(np.where(opposite, np.nan, between))
+
+
+def turned_together(
+    start: Array,
+    end: Array,
+    start_beside: Array,
+    end_beside: Array,
+    t: float,
+    *,
+    longer: bool = False,
+) -> Array:
+    """Return a direction on its way, (…, 3) at length one, as a bone turns that it is an axis of.
+
+    It is the shorter turn, or the longer, about one axis: R(t) = exp(t log(R₁ R₀ᵀ)), between frames
+    with first columns `start` and `end`, and second columns as near to the directions beside them
+    as is square to these. NaN where a frame has no direction.
+    """
+    before, after = frame(start, start_beside), frame(end, end_beside)
+    between = after @ np.swapaxes(before, -1, -2)
+    known = np.asarray(np.isfinite(between).all(axis=(-2, -1)))
+    turn = to_quaternions(np.where(known[..., None, None], between, np.eye(3)))
+    out = np.einsum(
+        "...ij,...j->...i", to_matrices(part_turn(turn, t, longer=longer)), before[..., 0]
+    )
+    return np.asarray(np.where(known[..., None], out, np.nan))
+
+
+def frame(first: Array, second: Array) -> Array:
+    """Return a right-handed frame, (…, 3, 3): columns along the first direction, in their plane."""
+    x = unit(first)
+    y = unit(second - np.sum(x * second, axis=-1, keepdims=True) * x)
+    return np.stack([x, y, np.cross(x, y)], axis=-1)
 
 
 def turned(v: Array, axis: Array, angle: ArrayLike) -> Array:

@@ -201,10 +201,12 @@ class Tape:
                 return self.turn(
                     self.vector(inner, phase), self.unit(self.vector(axis, phase)), angle
                 )
-            case Swing(from_, to):
+            case Swing(from_, to, beside):
                 if from_ is None or to is None:
                     raise DegenerateError
-                return self._swung(from_, to, phase)
+                if beside is None:
+                    return self._swung(from_, to, phase)
+                return self._beside_straight(expr, from_, to, phase)
 
     def _swung(self, start: Vector, end: Vector, phase: float) -> int:
         a, b = (self.unit(self.vector(v, phase)) for v in (start, end))
@@ -219,6 +221,16 @@ class Tape:
         shares = (math.sin(part * angle) / math.sin(angle) for part in (1.0 - phase, phase))
         first, second = shares
         return self.unit(self.combine(a, first, b, second))
+
+    def _beside_straight(self, expr: Vector, start: Vector, end: Vector, phase: float) -> int:
+        """Entry of a direction that stays as far from the straight line as it is now."""
+        value = self.evaluator.vector(expr, self.frames, phase)
+        if not np.all(np.isfinite(value)):
+            raise DegenerateError
+        first, last = (self.evaluator.vector(v, self.frames, phase) for v in (start, end))
+        aside = value - (1.0 - phase) * paths.unit(first) - phase * paths.unit(last)
+        a, b = (self.unit(self.vector(v, phase)) for v in (start, end))
+        return self.unit(self.combine(a, 1.0 - phase, b, phase, aside))
 
     def towards(self, start: int, end: int) -> int:
         """Entry of the unit vector between two points. Raises DegenerateError."""

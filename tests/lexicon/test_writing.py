@@ -193,3 +193,24 @@ def test_a_thumb_lies_anywhere_on_the_nail_of_the_closed_middle_finger() -> None
     for said, written in thumbs.items():
         text = _rule(f"<sign_manual>{config.format(said)}</sign_manual>")
         assert f":#hamfinger2('thumb = {written})" in text
+
+
+def test_a_hand_that_goes_on_in_circles_goes_one_way() -> None:
+    """Onward and round at once: a circle whose end is farther on, and no straight way beside it."""
+    text = _rule(
+        f"<sign_manual>{POINTING_UP}"
+        '<location_bodyarm location="chest"/><par_motion><directedmotion direction="r"/>'
+        '<circularmotion axis="o"/></par_motion></sign_manual>'
+    )
+    assert "transpath @PA(s) circle(" in text
+    assert "straight" not in text
+
+
+def test_a_long_way_with_steps_on_it_is_its_steps() -> None:
+    text = _rule(
+        f"<sign_manual>{POINTING_UP}"
+        '<location_bodyarm location="chest"/><par_motion><directedmotion direction="r"/>'
+        '<seq_motion><directedmotion direction="d"/><directedmotion direction="u"/></seq_motion>'
+        "</par_motion></sign_manual>"
+    )
+    assert text.count("transpath @PA(s) straight") == 2

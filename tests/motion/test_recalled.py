@@ -13,6 +13,7 @@ from azee_grammar.diagnostic import AZeeError
 from azee_rig.rig import Rig
 from azee_solver.evaluate import evaluator
 from azee_solver.geometry import Side, Site
+from azee_solver.outcome import Outcome
 
 PALM = Site("PA", Side.STRONG)
 CHAIN = """\
@@ -44,6 +45,30 @@ sync
         cstr
             place @WR(s) (point -.15 -.2 .3)
             orient 'nrm !palm(s) 'along (in s)
+    'start 'T:end
+"""
+
+SWEEP = """\
+sync
+    'A
+    key .2
+        cstr
+            place @PA(s) (point -.25 -.1 .35)
+            orient 'dir !palm(s) 'along {start_dir} 'within 15
+            orient 'nrm !palm(s) 'along {start_nrm} 'within 15
+    'T
+    key .6
+        cstr
+            turning 'dir !palm(s)
+            turning 'nrm !palm(s)
+            place @PA(s) (point -.25 -.1 .35) 'within .02
+    'start 'A:end
+    'B
+    key .2
+        cstr
+            place @PA(s) (point -.25 -.1 .35)
+            orient 'dir !palm(s) 'along {end_dir} 'within 15
+            orient 'nrm !palm(s) 'along {end_nrm} 'within 15
     'start 'T:end
 """
 
@@ -128,3 +153,23 @@ def test_a_turn_goes_on_the_shorter_arc_between_its_ends(signer: Rig) -> None:
 def test_a_turn_without_ends_is_named() -> None:
     with pytest.raises(AZeeError, match="no block orients `'nrm !palm"):
         evaluate_expression("key 1 (turning 'nrm !palm(s))")
+
+
+@pytest.mark.parametrize(
+    ("start_dir", "start_nrm", "end_dir", "end_nrm"),
+    [
+        # Each on its shorter arc, both would point the opposite ways half-way.
+        ("(vsum (in s) ^down)", "^back", "(vsum (scale (out s) .414) ^fwd)", "^up"),
+        # Half a circle, which a forearm can do in one of two ways only.
+        ("(vsum (in s) ^down)", "(vsum (scale (out s) .707) (vec 0 -.707 1))", "^fwd", "(in s)"),
+    ],
+)
+def test_a_hand_turns_as_one_and_the_way_that_its_joints_can(
+    start_dir: str, start_nrm: str, end_dir: str, end_nrm: str, signer: Rig
+) -> None:
+    text = SWEEP.format(start_dir=start_dir, start_nrm=start_nrm, end_dir=end_dir, end_nrm=end_nrm)
+    found = made(text, signer)
+    assert all(c.outcome is not Outcome.MISSED for c in found.report.constraints)
+    fastest = found.report.likeness.arm_speed_deg_s
+    assert fastest is not None
+    assert fastest.value < 600.0

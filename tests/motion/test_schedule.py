@@ -28,6 +28,7 @@ from azee.score.interval import Interval
 from azee.score.score import CHANNELS, Block, Group, Hold, Key
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
+from azee_solver import kinematics
 from azee_solver.constraint import (
     BoneAxis,
     Constraint,
@@ -49,6 +50,7 @@ from azee_solver.geometry import (
     Moving,
     NamedPoint,
     Point,
+    Scale,
     Side,
     SigningSpace,
     Site,
@@ -196,9 +198,14 @@ NRM_UP = Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP)
         (Place(TIP, MIDDLE), Place(TIP, RIGHT), True),
         (Place(TIP, MIDDLE), Place(TIP, MIDDLE), False),
         (Place(TIP, MIDDLE), Place(TIP, MIDDLE, distance_m=0.1), True),
+        (Place(TIP, Moving(Straight(), RIGHT, MIDDLE)), Place(TIP, MIDDLE), False),
+        (Place(TIP, Moving(Straight(), MIDDLE, RIGHT)), Place(TIP, MIDDLE), True),
+        (Place(TIP, VTranslate(MIDDLE, Scale(UP, 0.1))), Place(TIP, MIDDLE), True),
+        (Place(TIP, VTranslate(MIDDLE, Scale(UP, 0.0))), Place(TIP, MIDDLE), False),
         (Place(TIP, MIDDLE), Place(Site("I_TIP", W), RIGHT), False),
         (Place(TIP, MIDDLE), Place(Site("I_TIP", Side.RIGHT), RIGHT), True),
         (NRM_UP, Orient(BoneAxis.NRM, PALM, Relation.ALONG, FORWARD), True),
+        (NRM_UP, Orient(BoneAxis.NRM, PALM, Relation.ALONG, Scale(UP, 2.0)), False),
         (NRM_UP, Orient(BoneAxis.DIR, PALM, Relation.ALONG, FORWARD), False),
         (NRM_UP, Orient(BoneAxis.NRM, PALM, Relation.ACROSS, FORWARD), False),
         (Look(UP), LookAt(MIDDLE), True),
@@ -207,11 +214,13 @@ NRM_UP = Orient(BoneAxis.NRM, PALM, Relation.ALONG, UP)
         (Morph("index_bend", S, 1.0), Morph("middle_bend", S, 0.2), False),
     ],
 )
-def test_contradictions_are_found_by_comparing_expressions(
+def test_contradictions_are_found_by_comparing_targets(
     first: Constraint, second: Constraint, expected: bool
 ) -> None:
     both = schedule(block("A", "0", "1", first), block("B", "1", "1", second)).body_tasks
-    assert contradict(both[:1], both[1:], evaluator().binding) == expected
+    measure = evaluator()
+    frames = kinematics.frames(measure.rig.chain, measure.rig.coordinates.idle)
+    assert contradict(both[:1], both[1:], measure, frames) == expected
 
 
 PATH = Transpath(TIP, Straight())

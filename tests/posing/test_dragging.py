@@ -62,7 +62,8 @@ def ahead(start: Array, share: float) -> Array:
 def aside(start: Array, share: float) -> Array:
     """Twice an eight, .2 m wide and .16 m high: with the weak elbow to the flank and away."""
     turn = 4 * math.pi * share
-    return np.asarray(start + (0.1 * math.sin(turn), 0.08 * math.sin(2 * turn), 0.0))
+    offset = (0.1 * math.sin(turn), 0.08 * math.sin(2 * turn), 0.0)
+    return np.asarray(start + np.array(offset))
 
 
 def dragged(

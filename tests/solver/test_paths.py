@@ -175,3 +175,37 @@ def test_a_short_step_between_long_ones_makes_no_loop() -> None:
     curve = paths.through(corners, np.linspace(0, 1, 801))
     turns = np.diff(np.unwrap(np.arctan2(*np.diff(curve, axis=0)[:, 1::-1].T)))
     assert np.abs(turns).sum() < np.radians(160)
+
+
+@given(points, points, points, points)
+def test_axes_that_turn_together_stay_square(
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    beside_a: NDArray[np.float64],
+    beside_b: NDArray[np.float64],
+) -> None:
+    """One turn takes a frame to the other: its angle from the start grows evenly."""
+    assume(
+        min(float(np.linalg.norm(np.cross(*pair))) for pair in ((a, beside_a), (b, beside_b))) > 0.1
+    )
+    first, last = paths.frame(a, beside_a), paths.frame(b, beside_b)
+    cosine = (np.trace(last @ first.T) - 1.0) / 2.0
+    assume(-0.999 < cosine < 0.999)
+    whole = math.acos(min(cosine, 1.0))
+    for longer, sweep in ((False, whole), (True, whole - 2.0 * math.pi)):
+        for t in (0.0, 0.3, 0.5, 1.0):
+            x = paths.turned_together(
+                first[:, 0], last[:, 0], first[:, 1], last[:, 1], t, longer=longer
+            )
+            y = paths.turned_together(
+                first[:, 1], last[:, 1], first[:, 0], last[:, 0], t, longer=longer
+            )
+            now = np.stack([x, y, np.cross(x, y)], axis=1)
+            np.testing.assert_allclose(now.T @ now, np.eye(3), atol=1e-7)
+            turned = (np.trace(now @ first.T) - 1.0) / 2.0
+            assert turned == pytest.approx(math.cos(t * sweep), abs=1e-6)
+        np.testing.assert_allclose(now, last, atol=1e-6)
+
+
+def test_a_frame_without_a_direction_turns_nowhere() -> None:
+    assert np.isnan(paths.turned_together(UP, FORWARD, UP, A, 0.5)).all()

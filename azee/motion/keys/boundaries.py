@@ -35,8 +35,9 @@ from azee.motion.tasks.timed_task import (
     limbs_used,
 )
 from azee.score.interval import Interval
-from azee_solver.binding import Binding
+from azee_solver import kinematics
 from azee_solver.constraint import Constraint
+from azee_solver.evaluate import Evaluator
 from azee_solver.outcome import Outcome
 
 LOOK_AHEAD_S = Fraction(3, 20)
@@ -77,7 +78,7 @@ class Boundaries:
 def solve_boundaries(
     schedule: TaskSchedule,
     solver: KeyPostureSolver,
-    binding: Binding,
+    evaluator: Evaluator,
     deferred: frozenset[Fraction],
     needed_s: NeededTime | None = None,
 ) -> Boundaries:
@@ -96,7 +97,7 @@ def solve_boundaries(
         opening = [t for t in tasks if t not in closing]
         posture = _looking_ahead(time, opening, closing, schedule, solver)
         if posture is None:
-            posture = _shared(time, opening, closing, solver, binding)
+            posture = _shared(time, opening, closing, solver, evaluator)
         if posture is None:
             postures += _separate(time, opening, closing, solver, early_ends, needed_s)
         else:
@@ -141,7 +142,7 @@ def _shared(
     opening: Sequence[TimedTask],
     closing: Sequence[TimedTask],
     solver: KeyPostureSolver,
-    binding: Binding,
+    evaluator: Evaluator,
 ) -> KeyPosture | None:
     """Return one posture for what begins and what ends; none if each needs its own.
 
@@ -151,7 +152,8 @@ def _shared(
     starting = [t for t in opening if t.interval.start == time]
     if not any(a.used_limbs & b.used_limbs for a in closing for b in starting):
         return solver.solve(time, [*opening, *closing])
-    if contradict(closing, starting, binding):
+    frames = kinematics.frames(evaluator.rig.chain, solver.current)
+    if contradict(closing, starting, evaluator, frames):
         return None
     shared = solver.solve(time, [*opening, *closing])
     if shared.met or shared.reused or len(ik_tasks_at(opening, time)) == len(shared.ik_tasks):

@@ -75,9 +75,7 @@ def plan(
     key_solver = KeyPostureSolver(
         coordinates, selection, solver, index_by_time(motions), neutral, schedule.recorded
     )
-    boundaries = solved or solve_boundaries(
-        schedule, key_solver, evaluator.binding, deferred, needed_s
-    )
+    boundaries = solved or solve_boundaries(schedule, key_solver, evaluator, deferred, needed_s)
 
     # 6. Join the key postures to a movement, limb by limb, by minimum jerk.
     in_use = limbs_in_use(schedule, motions)

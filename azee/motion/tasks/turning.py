@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
 
@@ -31,6 +31,7 @@ def with_turns(score: Score, dominant: Side) -> Score:
         own = _axis(turn.constraint, dominant)
         same = [r for r in known if _axis(r.constraint, dominant) == own]
         ways[turn.path, turn.constraint] = _way(turn, same)
+    ways = {key: _together(way, key[0], ways) for key, way in ways.items()}
     return _rebuilt(score, ways, ())
 
 
@@ -75,6 +76,27 @@ def _way(turn: Requirement, ends: Iterable[Requirement]) -> Orient | None:
     assert isinstance(way, Orient)
     bound = max(first.within_rad, last.within_rad)
     return replace(way, vector=Swing(first.vector, last.vector), within_rad=bound)
+
+
+def _together(
+    way: Orient | None,
+    path: tuple[str, ...],
+    ways: Mapping[tuple[tuple[str, ...], Constraint], Orient | None],
+) -> Orient | None:
+    """Return a way that goes along with that of the other axis of its bone, if both turn.
+
+    Each on its own shorter arc, they would not stay square: between them the hand would have to
+    fold.
+    """
+    if way is None:
+        return None
+    for (other_path, _), other in ways.items():
+        if other is None or other_path != path or other.axis is way.axis or other.bone != way.bone:
+            continue
+        assert isinstance(way.vector, Swing)
+        assert isinstance(other.vector, Swing)
+        return replace(way, vector=replace(way.vector, beside=other.vector))
+    return way
 
 
 def _rebuilt(

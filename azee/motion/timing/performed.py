@@ -207,9 +207,7 @@ def _solved(
     key_solver = KeyPostureSolver(
         coordinates, selection, solver, index_by_time(motions), neutral, schedule.recorded
     )
-    boundaries = solve_boundaries(
-        schedule, key_solver, evaluator.binding, deferred, measure.needed_s
-    )
+    boundaries = solve_boundaries(schedule, key_solver, evaluator, deferred, measure.needed_s)
     postures = boundaries.postures
     in_use = limbs_in_use(schedule, motions)
     interpolation = Interpolation(

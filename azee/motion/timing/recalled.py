@@ -6,7 +6,7 @@ point is then a place in the world, which nothing moves any more.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, partial
@@ -15,14 +15,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.motion.keys.boundaries import solve_boundaries
-from azee.motion.keys.key_posture_solver import KeyPostureSolver
-from azee.motion.keys.neutral import ReturnToNeutral
-from azee.motion.keys.transpath import boundaries_on_paths, index_by_time, path_motions
-from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.key_posture import KeyPosture, PostureSolver
 from azee.motion.tasks.key_selection import KeySelection
-from azee.motion.tasks.schedule import bind
+from azee.motion.timing.first_postures import first_postures, rebuilt
 from azee.score.score import Group, Key, Score
 from azee_solver.binding import BindingError
 from azee_solver.constraint import Constraint
@@ -49,15 +44,15 @@ def recalled(
         ready = [w for w in waiting if not any(p[: len(w.block)] == w.block for p in pending)]
         measured: _Places = {}
         if ready:
-            without = _rebuilt(score, _without_waiting)
-            postures = _solved(without, evaluator, selection, solver, rest)
+            without = rebuilt(score, _without_waiting)
+            postures = first_postures(without, evaluator, selection, solver, rest)
             for one in ready:
                 place = _measured(one, postures, evaluator, rest)
                 if place is not None:
                     measured[one.path, one.was] = place
         if not measured:
             break
-        score = _rebuilt(score, partial(_with_places, measured))
+        score = rebuilt(score, partial(_with_places, measured))
     return score
 
 
@@ -109,21 +104,6 @@ def _wases(node: object) -> Iterator[Was]:
             yield from _wases(getattr(node, part.name))
 
 
-def _rebuilt(
-    score: Score, change: Callable[[Path, tuple[Constraint, ...]], tuple[Constraint, ...]],
-    path: Path = (),
-) -> Score:  # fmt: skip
-    """Return the score with the constraints of all its keys changed."""
-    if isinstance(score, Key):
-        return replace(score, constraints=change(path, score.constraints))
-    if isinstance(score, Group):
-        blocks = (
-            replace(b, score=_rebuilt(b.score, change, (*path, b.name))) for b in score.blocks
-        )
-        return replace(score, blocks=tuple(blocks))
-    return score
-
-
 def _without_waiting(path: Path, found: tuple[Constraint, ...]) -> tuple[Constraint, ...]:
     return tuple(c for c in found if all(w.at is not None for w in _points_as_they_were(c)))
 
@@ -142,21 +122,6 @@ def _with_places(
         return node
 
     return tuple(map(placed, found))
-
-
-def _solved(
-    score: Score, evaluator: Evaluator, selection: KeySelection, solver: PostureSolver, rest: Array
-) -> tuple[KeyPosture, ...]:
-    """Solve the key postures at the boundaries of a score."""
-    rig, binding, limbs = evaluator.rig, evaluator.binding, selection.limbs
-    schedule = bind(flatten(score), rig, binding, limbs, layered=not selection.flat)
-    motions = path_motions(schedule, binding.dominant)
-    deferred = boundaries_on_paths(motions, schedule)
-    neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
-    keys = KeyPostureSolver(
-        rig.coordinates, selection, solver, index_by_time(motions), neutral, schedule.recorded
-    )
-    return solve_boundaries(schedule, keys, binding, deferred).postures
 
 
 def _measured(

@@ -1,0 +1,56 @@
+"""Key postures of a score before it is performed, for what has to be known of them first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from azee.motion.keys.boundaries import solve_boundaries
+from azee.motion.keys.key_posture_solver import KeyPostureSolver
+from azee.motion.keys.neutral import ReturnToNeutral
+from azee.motion.keys.transpath import boundaries_on_paths, index_by_time, path_motions
+from azee.motion.tasks.flatten import flatten
+from azee.motion.tasks.key_posture import KeyPosture, PostureSolver
+from azee.motion.tasks.key_selection import KeySelection
+from azee.motion.tasks.schedule import bind
+from azee.score.score import Group, Key, Score
+from azee_solver.constraint import Constraint
+from azee_solver.evaluate import Evaluator
+
+Array = NDArray[np.float64]
+Path: TypeAlias = tuple[str, ...]
+
+
+def first_postures(
+    score: Score, evaluator: Evaluator, selection: KeySelection, solver: PostureSolver, rest: Array
+) -> tuple[KeyPosture, ...]:
+    """Solve the key postures at the boundaries of a score.
+
+    Args: rest: (V,) the posture of a body that nothing has moved yet.
+    """
+    rig, binding, limbs = evaluator.rig, evaluator.binding, selection.limbs
+    schedule = bind(flatten(score), rig, binding, limbs, layered=not selection.flat)
+    motions = path_motions(schedule, binding.dominant)
+    deferred = boundaries_on_paths(motions, schedule)
+    neutral = ReturnToNeutral(schedule.posture_tasks, limbs, rest)
+    keys = KeyPostureSolver(
+        rig.coordinates, selection, solver, index_by_time(motions), neutral, schedule.recorded
+    )
+    return solve_boundaries(schedule, keys, evaluator, deferred).postures
+
+
+def rebuilt(
+    score: Score, change: Callable[[Path, tuple[Constraint, ...]], tuple[Constraint, ...]],
+    path: Path = (),
+) -> Score:  # fmt: skip
+    """Return the score with the constraints of all its keys changed."""
+    if isinstance(score, Key):
+        return replace(score, constraints=change(path, score.constraints))
+    if isinstance(score, Group):
+        blocks = (replace(b, score=rebuilt(b.score, change, (*path, b.name))) for b in score.blocks)
+        return replace(score, blocks=tuple(blocks))
+    return score

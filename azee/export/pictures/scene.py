@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from azee.clip.clip import Clip
 from azee.export.pictures.camerawork import cameras
-from azee.export.pictures.canvas import SAMPLES, Canvas
+from azee.export.pictures.canvas import SoftwareCanvas
+from azee.export.pictures.posed import SAMPLES
 from azee.export.pictures.strip import Strip
 from azee_rig.rig import Rig
 from azee_rig.skeleton import Pose
@@ -75,15 +76,15 @@ class Scene:
         self.faces = np.zeros((len(clip.times), len(rig.units)))
         self.faces[:, [rig.units.index(unit) for unit in clip.units]] = clip.unit_weights
 
-    def canvases(self) -> list[Canvas]:
+    def canvases(self) -> list[SoftwareCanvas]:
         """Return buffers for one thread: a canvas per panel."""
-        return [Canvas(self.rig.mesh, size, self.look.samples) for size in self.panels]
+        return [SoftwareCanvas(self.rig.mesh, size, self.look.samples) for size in self.panels]
 
-    def frame(self, index: int, canvases: list[Canvas]) -> Pixels:
+    def frame(self, index: int, canvases: list[SoftwareCanvas]) -> Pixels:
         """Return a frame, (H, W, 3), or (H, W, 4) if it is transparent."""
         return self._captioned(index, self._drawn(index, canvases))
 
-    def _drawn(self, index: int, canvases: list[Canvas]) -> Pixels:
+    def _drawn(self, index: int, canvases: list[SoftwareCanvas]) -> Pixels:
         """Draw the views of the cameras side by side; several threads may call this at once."""
         root = np.broadcast_to(self.poses.root_translation, (len(self.clip.times), 3))[index]
         pose = Pose(root, self.poses.rotations[index])
@@ -106,7 +107,7 @@ class Scene:
         """Yield frames in order, drawn by as many threads as there are processors."""
         chosen = list(range(len(self.clip.times)) if indices is None else indices)
         workers = max(1, min(MOST_THREADS, os.cpu_count() or 1, len(chosen)))
-        free: SimpleQueue[list[Canvas]] = SimpleQueue()
+        free: SimpleQueue[list[SoftwareCanvas]] = SimpleQueue()
         for _ in range(workers):
             free.put(self.canvases())
 

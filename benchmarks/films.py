@@ -54,16 +54,15 @@ def drawn(scene: Scene, indices: Sequence[int]) -> tuple[Round, list[NDArray[np.
     """Draw frames; those that threads have at hand when the first is ready are not measured."""
     begin = min(2 * min(MOST_THREADS, os.cpu_count() or 1) + 2, len(indices) - 1)
     pictures = []
-    first = began = spent = time.perf_counter()
-    for number, picture in enumerate(scene.frames(indices)):
+    ready_s, spent_s = [], []  # by the clock and of the processor, when each picture is there
+    began = time.perf_counter()
+    for picture in scene.frames(indices):
         pictures.append(picture)
-        if number == 0:
-            first = time.perf_counter() - first
-        if number + 1 == begin:
-            began, spent = time.perf_counter(), time.process_time()
+        ready_s.append(time.perf_counter() - began)
+        spent_s.append(time.process_time())
     count = len(indices) - begin
-    took, spent = time.perf_counter() - began, time.process_time() - spent
-    return Round(first, count / took, spent / count), pictures
+    rate = count / (ready_s[-1] - ready_s[begin - 1])
+    return Round(ready_s[0], rate, (spent_s[-1] - spent_s[begin - 1]) / count), pictures
 
 
 def apart(ours: Sequence[NDArray[np.uint8]], theirs: Sequence[NDArray[np.uint8]]) -> Apart:
@@ -80,12 +79,15 @@ def main(arguments: Sequence[str]) -> None:
     parser.add_argument("--size", default="1280x720")
     parser.add_argument("--rounds", type=int, default=3)
     options = parser.parse_args(arguments)
+    if options.frames < 2:
+        parser.error("a rate needs two frames or more")
     width, height = (int(side) for side in options.size.split("x"))
 
     renderers: list[Renderer] = ["software"]
     try:
-        renderers.append(resolved("opengl")[0])
-        print(resolved("opengl")[1])
+        theirs, name = resolved("opengl")
+        renderers.append(theirs)
+        print(name)
     except NoOpenGLError as error:
         print(f"{error}; {error.remedy}")
     rig = load_rig()

@@ -163,7 +163,7 @@ def filming() -> Iterator[None]:
     from azee.export.pictures.film import NoEncoderError
 
     try:
-        with frames_counted():
+        with frames_counted(), drawing():
             yield
     except NoEncoderError as error:
         raise AZeeError(
@@ -171,6 +171,17 @@ def filming() -> Iterator[None]:
                 "not-installed", str(error), None, help="install it with: pip install 'azee[film]'"
             )
         ) from error
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Turn a lack of OpenGL into a diagnostic. Raises: AZeeError: not-installed."""
+    from azee.export.pictures.opengl.context import NoOpenGLError
+
+    try:
+        yield
+    except NoOpenGLError as error:
+        raise AZeeError(Diagnostic("not-installed", str(error), None, help=error.remedy)) from error
 
 
 def _score_svg(score: Score, rows: Sequence[Row], header: ElanHeader, path: Path) -> None:

@@ -23,6 +23,7 @@ MODULES = {
     "motion": "benchmarks.motion_length",
     "prompt": "benchmarks.prompt",
     "frames": "benchmarks.frames",
+    "films": "benchmarks.films",
     "threads": "benchmarks.threads",
     "memory": "benchmarks.memory",
     "continuity": "benchmarks.continuity",

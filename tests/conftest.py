@@ -99,6 +99,18 @@ def assimp() -> str:
 
 
 @pytest.fixture(scope="session")
+def opengl() -> str:
+    """The name of OpenGL's renderer."""
+    from azee.export.pictures.opengl.context import NoOpenGLError, OpenGL
+
+    try:
+        with OpenGL() as there:
+            return there.name
+    except NoOpenGLError as error:
+        _missing(f"{error}: {error.remedy}")
+
+
+@pytest.fixture(scope="session")
 def postgresql() -> Iterator[str]:
     """URL of a PostgreSQL that only these tests use, with {} for the name of a database."""
     with ExitStack() as stack:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,8 +22,9 @@ from azee.cli.text import (
     timing_options,
 )
 from azee.clips import CLIP_SUFFIXES
+from azee.export.pictures.renderer import CHOICES
 from azee.export.pictures.shots import SHOTS
-from azee.formats import FILM_SUFFIXES, RENDER_SUFFIXES, filming, writing
+from azee.formats import FILM_SUFFIXES, RENDER_SUFFIXES, drawing, filming, writing
 
 if TYPE_CHECKING:
     from azee.clip.clip import Clip
@@ -87,6 +89,14 @@ OF_TEXTS = (
 )
 @click.option("--no-captions", is_flag=True, help="No strip with the names of what is running.")
 @click.option("--transparent", is_flag=True, help="No background; in .png and .webm.")
+@click.option(
+    "--renderer",
+    default="software",
+    show_default=True,
+    type=click.Choice(CHOICES),
+    help="Who draws: our rasteriser, the same on every machine, or OpenGL (extra `gl`); `auto` is "
+    "OpenGL where a graphics processor draws.",
+)
 @click.option("--rig", metavar="R", help="A body by name, or its folder.")
 @dominant_option
 @rest_option
@@ -112,6 +122,7 @@ def render(
     sheet: bool,
     no_captions: bool,
     transparent: bool,
+    renderer: str,
     rig: str | None,
     dominant: Hand,
     rest: Rest,
@@ -141,6 +152,7 @@ def render(
     check_outputs(outputs)
     if films:
         _encoder_there()
+    look = _drawn_by(renderer, look, quiet)
     if file is not None and Path(file).suffix.lower() in CLIP_SUFFIXES:
         _refuse_options_of_texts()
         clip, body, keys = _of_clip(Path(file), rig, quiet)
@@ -177,6 +189,17 @@ def _encoder_there() -> None:
 
     with filming():
         encoder()
+
+
+def _drawn_by(renderer: str, look: Look, quiet: bool) -> Look:
+    """Find the renderer before anything is solved. Raises: AZeeError: not-installed."""
+    from azee.export.pictures.renderer import resolved
+
+    with drawing():
+        chosen, name = resolved(renderer)
+    if renderer != "software":
+        news(f"drawn by {name}", quiet=quiet)
+    return replace(look, renderer=chosen)
 
 
 def _refuse_options_of_texts() -> None:
@@ -220,7 +243,7 @@ def _picture(
 ) -> None:
     from azee.export.pictures.still import write_moments, write_sheet
 
-    with writing(path):
+    with writing(path), drawing():
         if sheet:
             write_sheet(clip, body, path, look, keys)
         else:

@@ -97,7 +97,8 @@ def test_a_film_has_its_frames_its_length_its_size_and_the_hand_where_it_is(
     }
     x, y = hand_pixel(waving, signer, 22, "front", (242, 182))
     shown = Scene(waving, signer, Look((242, 182), captions=False, samples=1))
-    drawn = shown.frame(22, shown.canvases())
+    with shown.canvases() as (canvases,):
+        drawn = shown.frame(22, canvases)
     assert is_skin(drawn[y, x])
     assert not is_skin(frames[0][y, x]), "the hand is elsewhere at first"
     # What a player shows is what was drawn: neither colours nor places are lost in the coding.
@@ -166,7 +167,8 @@ def test_every_letter_of_european_names_can_be_written() -> None:
 
 def test_frames_are_the_same_however_many_threads_draw_them(waving: Clip, signer: Rig) -> None:
     scene = Scene(waving, signer, Look((120, 90), ("front", "face"), samples=1))
-    one = [scene.frame(i, scene.canvases()) for i in (0, 11, 22, 44)]
+    with scene.canvases() as (canvases,):
+        one = [scene.frame(i, canvases) for i in (0, 11, 22, 44)]
     many = list(scene.frames([0, 11, 22, 44]))
     assert all((a == b).all() for a, b in zip(one, many, strict=True))
 

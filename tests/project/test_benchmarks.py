@@ -13,7 +13,7 @@ import pytest
 from azee_rig.rig import Rig
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
-from benchmarks import continuity, frames, solver_bench
+from benchmarks import continuity, films, frames, solver_bench
 from benchmarks.ik.armature import bare_armature, pinned
 from benchmarks.ik.comparison import Miss, Row, behind_best, compared, of_solvable, row
 from benchmarks.ik.elsewhere import Environment, NotThere, ordered_steps
@@ -176,6 +176,25 @@ def test_frames_are_judged_from_the_report(capsys: pytest.CaptureFixture[str]) -
     told = capsys.readouterr().out
     assert "2 clips, " in told
     assert "0 missed, 0 of them without a reason; 0 clips beyond limits; 0 with skin" in told
+
+
+def test_pictures_are_compared_pixel_by_pixel() -> None:
+    black = np.zeros((2, 2, 3), dtype=np.uint8)
+    other = black.copy()
+    other[0, 0] = 0, 17, 0
+    other[1, 1] = 16, 0, 1
+    assert films.apart([black], [other]) == films.Apart(34 / 12, 0.25)
+    assert films.apart([other, black], [black, black]) == films.Apart(34 / 24, 0.125)
+
+
+@pytest.mark.slow
+def test_a_film_is_drawn_by_both_renderers(capsys: pytest.CaptureFixture[str], opengl: str) -> None:
+    films.main(["--frames", "8", "--size", "64x48", "--rounds", "1"])
+    told = capsys.readouterr().out
+    assert opengl in told
+    rows = [line.split()[:2] for line in told.splitlines()[3:]]
+    assert rows[:3] == [["front", "software"], ["front", "opengl"], ["front", "apart"]]
+    assert len(rows) == 9
 
 
 @pytest.mark.slow

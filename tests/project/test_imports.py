@@ -112,6 +112,7 @@ MAY_IMPORT: dict[str, set[str]] = {
         *("azee.clip", "azee.score", "azee_rig", "numpy", "PIL", "numba", "av"),
         *DECLARATIONS,
     },
+    "azee.export.pictures.opengl": {"azee.export.pictures", "azee_rig", "numpy", "moderngl"},
     "azee.export.landmarks": {
         *("azee.export.files", "azee.export.formats", "azee.export.npz"),
         *("azee.export.pictures", "azee.clip", "azee_rig", "numpy"),

@@ -19,6 +19,7 @@ HEAVY = (
     "lark",
     "matplotlib",
     "mcp",
+    "moderngl",
     "pympi",
     "nlopt",
     "numba",

@@ -26,6 +26,7 @@ def test_the_wheel_holds_four_packages_with_their_data(tmp_path: Path) -> None:
     assert tops == {"azee", "azee_grammar", "azee_rig", "azee_solver"}
     for name in (
         "azee/py.typed",
+        "azee/export/pictures/opengl/shade.frag",
         "azee/web/dist/player.html",
         "azee/web/dist/vendor-three.js",
         "azee/spelling/study/templates/page.html",

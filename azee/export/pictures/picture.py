@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from azee.export.pictures.camera import Camera, camera, projected
-from azee.export.pictures.canvas import SAMPLES, Canvas
+from azee.export.pictures.canvas import SoftwareCanvas
+from azee.export.pictures.posed import SAMPLES
 from azee.export.pictures.raster import fill
 from azee.export.pictures.typeface import typeface
 from azee_rig.mesh import BodyMesh
@@ -36,7 +37,7 @@ def render(
 
     Returns: RGB, or RGBA with an empty background when `transparent`.
     """
-    return Image.fromarray(Canvas(mesh, size, samples).draw(vertices, camera, transparent))
+    return Image.fromarray(SoftwareCanvas(mesh, size, samples).draw(vertices, camera, transparent))
 
 
 def picture(

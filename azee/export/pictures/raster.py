@@ -22,15 +22,15 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _FAR = 1e30
-_RING = np.array([[1.0, 0.0], [0.7071, 0.7071], [0.0, 1.0], [-0.7071, 0.7071]])
+RING = np.array([[1.0, 0.0], [0.7071, 0.7071], [0.0, 1.0], [-0.7071, 0.7071]])
 """Directions in which creases are searched, each with its opposite."""
 
 LIGHT_RADIUS = 0.25
 """Radius of the key light, as seen from the body: of a disc at distance 1."""
-_STEEPEST = 3.0
-_SAME_M = 0.004
+STEEPEST = 3.0
+SAME_M = 0.004
 """Places in a pixel that are nearer to each other than this share an answer about the light."""
-_DISC_TILES = 1.15
+DISC_TILES = 1.15
 """Radius, in tiles, of the disc that is as wide as the weights of `_bump` over tiles."""
 
 _fill_types = "void(f8[:,::1], i8[:,::1], f8[:,::1], i4[:,::1])"
@@ -159,15 +159,15 @@ def _lit(p: Any, n: Any, direct: Any, shadow_from: Any, tiles: Any, rows: Any, t
         across += shadow_from[1, k] * n[k]
     if x_at < 0.0 or y_at < 0.0 or x_at >= size or y_at >= size:
         return 1.0
-    x_slope = texel_m * min(max(along * texel_m / direct, -_STEEPEST), _STEEPEST)
-    y_slope = texel_m * min(max(across * texel_m / direct, -_STEEPEST), _STEEPEST)
+    x_slope = texel_m * min(max(along * texel_m / direct, -STEEPEST), STEEPEST)
+    y_slope = texel_m * min(max(across * texel_m / direct, -STEEPEST), STEEPEST)
     steepness = np.sqrt(x_slope**2 + y_slope**2)
     covered = 0.0
     last = rows.shape[0] - 1
     for level in range(last + 1):
         side = 2 << level
         first, count = rows[level], size >> (level + 1)
-        usual = side * texel_m * _DISC_TILES / LIGHT_RADIUS
+        usual = side * texel_m * DISC_TILES / LIGHT_RADIUS
         lowest = 0.0 if level == 0 else 0.5 * usual
         x0, y0 = int(x_at) >> (level + 1), int(y_at) >> (level + 1)
         u, v = x_at / side - x0, y_at / side - y0
@@ -210,7 +210,7 @@ def _open(depth: Any, x: Any, y: Any, reach: Any) -> Any:
         radius_m = 0.02 + 0.03 * ring
         step = radius_m * reach / here
         for k in range(4):
-            i, j = step * _RING[k, 0], step * _RING[k, 1]
+            i, j = step * RING[k, 0], step * RING[k, 1]
             both = 0.0
             for side in range(-1, 2, 2):
                 v = min(max(int(y + side * j), 0), height - 1)
@@ -225,7 +225,7 @@ def _open(depth: Any, x: Any, y: Any, reach: Any) -> Any:
 
 
 @njit("f8(f8, f8[::1])", cache=True, nogil=True)
-def _encoded(linear: Any, curve: Any) -> Any:
+def encoded(linear: Any, curve: Any) -> Any:
     """Encode linear light through a table over [0, 1], highlights rolled off towards white."""
     knee = 0.8
     if linear > knee:
@@ -291,7 +291,7 @@ def shade(
     bare = np.empty(3, dtype=np.uint8)
     for v0 in range(height):
         for k in range(3):
-            bare[k] = np.uint8(_encoded(background[v0, k], curve) * 255.0 + 0.5)
+            bare[k] = np.uint8(encoded(background[v0, k], curve) * 255.0 + 0.5)
         for u0 in range(width):
             pixel[:] = 0.0
             cover = 0
@@ -355,7 +355,7 @@ def shade(
                     apart = 0.0
                     for k in range(3):
                         apart += (p[k] - asked[k]) ** 2
-                    if apart > _SAME_M**2:
+                    if apart > SAME_M**2:
                         answer = _lit(p, n, direct, shadow_from, tiles, rows, texel_m)
                         asked[:] = p
                     lit = answer
@@ -386,10 +386,10 @@ def shade(
             elif channels == 4:
                 share = max(cover, 1)
                 for k in range(3):
-                    out[v0, u0, k] = np.uint8(_encoded(pixel[k] / share, curve) * 255.0 + 0.5)
+                    out[v0, u0, k] = np.uint8(encoded(pixel[k] / share, curve) * 255.0 + 0.5)
                 out[v0, u0, 3] = np.uint8(cover * 255.0 / whole + 0.5)
             else:
                 left = 1.0 - cover / whole
                 for k in range(3):
                     light = pixel[k] / whole + left * background[v0, k]
-                    out[v0, u0, k] = np.uint8(_encoded(light, curve) * 255.0 + 0.5)
+                    out[v0, u0, k] = np.uint8(encoded(light, curve) * 255.0 + 0.5)

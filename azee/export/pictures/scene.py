@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from itertools import pairwise
 from queue import SimpleQueue
@@ -15,7 +16,8 @@ from numpy.typing import NDArray
 
 from azee.clip.clip import Clip
 from azee.export.pictures.camerawork import cameras
-from azee.export.pictures.canvas import SAMPLES, Canvas
+from azee.export.pictures.posed import SAMPLES
+from azee.export.pictures.renderer import Canvas, Renderer, canvases
 from azee.export.pictures.strip import Strip
 from azee_rig.rig import Rig
 from azee_rig.skeleton import Pose
@@ -35,6 +37,7 @@ class NoRoomError(ValueError):
 class Look:
     """The look of frames: size in pixels, cameras from left to right, captions, background.
 
+    samples: of a pixel, each way. renderer: who draws the body; `resolved` finds it for `auto`.
     Raises: ValueError: no camera. NoRoomError.
     """
 
@@ -43,6 +46,7 @@ class Look:
     captions: bool = True
     transparent: bool = False
     samples: int = SAMPLES
+    renderer: Renderer = "software"
 
     def __post_init__(self) -> None:
         if not self.shots:
@@ -75,15 +79,16 @@ class Scene:
         self.faces = np.zeros((len(clip.times), len(rig.units)))
         self.faces[:, [rig.units.index(unit) for unit in clip.units]] = clip.unit_weights
 
-    def canvases(self) -> list[Canvas]:
-        """Return buffers for one thread: a canvas per panel."""
-        return [Canvas(self.rig.mesh, size, self.look.samples) for size in self.panels]
+    def canvases(self, threads: int = 1) -> AbstractContextManager[list[list[Canvas]]]:
+        """Give a canvas per panel to each of so many threads. Raises: NoOpenGLError, on entry."""
+        look = self.look
+        return canvases(look.renderer, self.rig.mesh, self.panels, look.samples, threads)
 
-    def frame(self, index: int, canvases: list[Canvas]) -> Pixels:
+    def frame(self, index: int, canvases: Sequence[Canvas]) -> Pixels:
         """Return a frame, (H, W, 3), or (H, W, 4) if it is transparent."""
         return self._captioned(index, self._drawn(index, canvases))
 
-    def _drawn(self, index: int, canvases: list[Canvas]) -> Pixels:
+    def _drawn(self, index: int, canvases: Sequence[Canvas]) -> Pixels:
         """Draw the views of the cameras side by side; several threads may call this at once."""
         root = np.broadcast_to(self.poses.root_translation, (len(self.clip.times), 3))[index]
         pose = Pose(root, self.poses.rotations[index])
@@ -103,21 +108,24 @@ class Scene:
         return np.concatenate([drawn, strip[..., : drawn.shape[2]]], axis=0)
 
     def frames(self, indices: Iterable[int] | None = None) -> Iterator[Pixels]:
-        """Yield frames in order, drawn by as many threads as there are processors."""
+        """Yield frames in order, drawn by as many threads as there are processors.
+
+        Raises: NoOpenGLError, with the first frame.
+        """
         chosen = list(range(len(self.clip.times)) if indices is None else indices)
         workers = max(1, min(MOST_THREADS, os.cpu_count() or 1, len(chosen)))
-        free: SimpleQueue[list[Canvas]] = SimpleQueue()
-        for _ in range(workers):
-            free.put(self.canvases())
+        with self.canvases(workers) as of_threads, ThreadPoolExecutor(workers) as pool:
+            free: SimpleQueue[list[Canvas]] = SimpleQueue()
+            for own in of_threads:
+                free.put(own)
 
-        def drawn(index: int) -> Pixels:
-            canvases = free.get()
-            try:
-                return self._drawn(index, canvases)
-            finally:
-                free.put(canvases)
+            def drawn(index: int) -> Pixels:
+                own = free.get()
+                try:
+                    return self._drawn(index, own)
+                finally:
+                    free.put(own)
 
-        with ThreadPoolExecutor(workers) as pool:
             waiting: deque[tuple[int, Future[Pixels]]] = deque()
             try:
                 for index in chosen:

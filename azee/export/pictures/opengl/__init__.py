@@ -1,0 +1,1 @@
+"""The renderer that draws by OpenGL 3.3 the pictures of our rasteriser."""

@@ -36,7 +36,8 @@ def closing(rig: Rig, side: str) -> NDArray[np.float64]:
         for name, angle in zip(THUMB, thumb, strict=True):
             q[c.index[f"thumb_{side}_{name}"]] = math.radians(angle)
         ends.append(np.clip(q, c.lower, c.upper))
-    return np.linspace(*ends, 9)
+    first, last = ends
+    return np.linspace(first, last, 9)
 
 
 @pytest.mark.parametrize("body", BODIES)

@@ -54,8 +54,11 @@ class Drive:
     def pose(self, q: Floats, bind_q: Floats, chain: Chain, skeleton: Skeleton) -> Pose:
         """Local rotations of the body's joints for coordinates q (…, V), radians."""
         q = np.asarray(q, dtype=np.float64)
+        return self.posed(chain.frames(q).rotations, q, bind_q, skeleton)
+
+    def posed(self, nodes: Floats, q: Floats, bind_q: Floats, skeleton: Skeleton) -> Pose:
+        """Local rotations of the joints for rotations of the nodes (…, B, 3, 3) in q (…, V)."""
         batch = q.shape[:-1]
-        nodes = chain.frames(q).rotations
         world = np.empty((*batch, len(self.node), 3, 3))
         local = np.empty_like(world)
         for j, n in enumerate(self.node):

@@ -41,10 +41,31 @@ def skin(
     Args: unit_weights: (U,) weights of the face units, in the mesh's order.
     """
     positions, rotations = joint_frames(skeleton, pose)
-    shift = positions - (rotations @ skeleton.rest_positions[:, :, None])[..., 0]
-    transforms = np.concatenate([rotations, shift[:, :, None]], axis=2)
     shaped = mesh.vertices if unit_weights is None else mesh.shaped(unit_weights)
-    count, influences = mesh.joints.shape
-    out = np.empty_like(shaped)
-    _BLENDED(count, influences, len(transforms), shaped, mesh.joints, mesh.weights, transforms, out)
+    skins = blended(shaped, mesh.joints, mesh.weights, skeleton, positions[None], rotations[None])
+    return np.asarray(skins[0])
+
+
+def blended(
+    vertices: Floats,
+    joints: NDArray[np.int64],
+    weights: Floats,
+    skeleton: Skeleton,
+    positions: Floats,
+    rotations: Floats,
+) -> Floats:
+    """Return vertices in T postures, (T, N, 3).
+
+    Args: vertices: (N, 3) in the rest pose. joints, weights: (N, K). positions: (T, J, 3).
+        rotations: (T, J, 3, 3), of the joints in the world.
+    """
+    shift = positions - (rotations @ skeleton.rest_positions[:, :, None])[..., 0]
+    transforms = np.concatenate([rotations, shift[..., None]], axis=-1)
+    count, influences = joints.shape
+    out = np.empty((len(transforms), count, 3))
+    for of_posture, skin_of_posture in zip(transforms, out, strict=True):
+        _BLENDED(
+            count, influences, len(of_posture), vertices, joints, weights,
+            of_posture, skin_of_posture,
+        )  # fmt: skip
     return out

@@ -70,7 +70,7 @@ def meant_contact(evaluator: Evaluator, frames: Frames, place: Place) -> Contact
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Limb:
+class TestedLimb:
     """Vertices that are tested, (n,), and those of them that are against the own hand, (m,)."""
 
     side: str
@@ -79,13 +79,13 @@ class _Limb:
 
 
 @dataclass(frozen=True, eq=False)
-class _Regions:
+class Regions:
     """Limbs that are tested, and triangles (F, 3) that bound the parts, of those that have any.
 
     corners: the vertices of these triangles, (m,).
     """
 
-    limbs: Mapping[str, _Limb]
+    limbs: Mapping[str, TestedLimb]
     surfaces: Mapping[str, NDArray[np.int64]]
     corners: Mapping[str, NDArray[np.int64]]
 
@@ -98,7 +98,7 @@ def mesh_penetration(
     Args: q: (V,) coordinates of one posture. contacts: where touching is meant.
         parts: those that matter, such as `thumb_R`; all by default.
     """
-    regions = _regions(rig)
+    regions = skin_regions(rig)
     vertices = rig.skin(rig.pose(q))
     surfaces = {
         name: vertices[triangles]
@@ -130,7 +130,8 @@ def mesh_penetration(
 
 
 @lru_cache(maxsize=4)
-def _regions(rig: Rig) -> _Regions:
+def skin_regions(rig: Rig) -> Regions:
+    """Return what is tested on the skin of a body, and the surfaces that bound its parts."""
     mesh = rig.mesh
     structure = anatomy(rig.chain, rig.coordinates)
     carriers = _carriers(rig)
@@ -156,13 +157,13 @@ def _regions(rig: Rig) -> _Regions:
         own = on_surface & (share[name] > OWN_WEIGHT)
         if name.startswith("arm_"):
             own &= _along_upper_arm(rig, side) > ARMPIT
-            limbs[name] = _Limb(side, np.flatnonzero(own), np.empty(0, dtype=np.int64))
+            limbs[name] = TestedLimb(side, np.flatnonzero(own), np.empty(0, dtype=np.int64))
             continue
         second = rig.bones.get(f"{name}_2", rig.bones[f"{name}_1"]).node
         far = np.array([n >= 0 and structure.is_above(second, n) for n in carriers])
         beyond = np.sum(mesh.weights * far[mesh.joints], axis=1) > OWN_WEIGHT
-        limbs[name] = _Limb(side, np.flatnonzero(own), np.flatnonzero(own & beyond))
-    return _Regions(limbs, surfaces, {name: np.unique(t) for name, t in surfaces.items()})
+        limbs[name] = TestedLimb(side, np.flatnonzero(own), np.flatnonzero(own & beyond))
+    return Regions(limbs, surfaces, {name: np.unique(t) for name, t in surfaces.items()})
 
 
 def _carriers(rig: Rig) -> list[int]:

@@ -7,7 +7,7 @@ import math
 from numba import cfunc
 
 from azee_rig.machine_code import KEEPS
-from azee_rig.pointers import WORDS, carray, reals
+from azee_rig.pointers import WORDS, carray, integers, reals
 
 
 @cfunc(WORDS, cache=not KEEPS, error_model="numpy")
@@ -104,3 +104,40 @@ def measure(words):
                 square += (points[n, i] - a - v * (b - a) - w * (c - a)) ** 2
             best = min(best, square)
         out[n] = math.sqrt(best)
+
+
+@cfunc(WORDS, cache=not KEEPS, error_model="numpy")
+def behind(words):
+    """Find how far points are behind the nearest vertices of a surface, along these' normals.
+
+    Points outside the surface's box are not looked at, nor are vertices that are farther from a
+    point than the last number says.
+
+    Words: N, n, m, vertices (N, 3), normals (N, 3), which vertices are the points (n,) and which
+    the surface (m,), how far to look (1,), and the result (1,): the farthest, 0 if none is behind.
+    """
+    w = carray(words, (9,))
+    vertices, normals = reals(w[3], (w[0], 3)), reals(w[4], (w[0], 3))
+    points, surface = integers(w[5], (w[1],)), integers(w[6], (w[2],))
+    farthest, out = reals(w[7], (1,))[0], reals(w[8], (1,))
+    low_x, low_y, low_z = math.inf, math.inf, math.inf
+    high_x, high_y, high_z = -math.inf, -math.inf, -math.inf
+    for k in range(surface.shape[0]):
+        x, y, z = vertices[surface[k], 0], vertices[surface[k], 1], vertices[surface[k], 2]
+        low_x, low_y, low_z = min(low_x, x), min(low_y, y), min(low_z, z)
+        high_x, high_y, high_z = max(high_x, x), max(high_y, y), max(high_z, z)
+    deepest = 0.0
+    for n in range(points.shape[0]):
+        x, y, z = vertices[points[n], 0], vertices[points[n], 1], vertices[points[n], 2]
+        if x < low_x or x > high_x or y < low_y or y > high_y or z < low_z or z > high_z:
+            continue
+        best, depth = farthest * farthest, 0.0
+        for k in range(surface.shape[0]):
+            v = surface[k]
+            dx, dy, dz = vertices[v, 0] - x, vertices[v, 1] - y, vertices[v, 2] - z
+            square = dx * dx + dy * dy + dz * dz
+            if square < best:
+                best = square
+                depth = dx * normals[v, 0] + dy * normals[v, 1] + dz * normals[v, 2]
+        deepest = max(deepest, depth)
+    out[0] = deepest

@@ -20,6 +20,7 @@ from azee.motion.tasks.interval_index import IntervalIndex
 from azee.motion.tasks.limbs import Limbs
 from azee.score.interval import Interval
 from azee_rig.load import load_rig
+from azee_solver.digit_skin import digit_skin
 from azee_solver.evaluate import Evaluator
 from azee_solver.geometry import Side
 
@@ -41,6 +42,15 @@ SHAPES = {
     ),
 }  # fmt: skip
 """Joints of index, middle, ring and little finger and of the thumb, degrees."""
+TOUCHES = {
+    "fingertips on the thumb": (
+        (14, 100, 45), (28, 100, 47), (15, 100, 50), (20, 97, 48), (-32, 35, 2, 54, 52)
+    ),
+    "little finger out": (
+        (73, 84, 38), (76, 89, 42), (77, 86, 42), (5, 8, 5), (-52, 59, -15, 60, 25)
+    ),
+}  # fmt: skip
+"""Handshapes between which a thumb leaves a touch."""
 
 
 @cache
@@ -56,7 +66,7 @@ def search() -> PassageSearch:
 def posture(shape: str) -> NDArray[np.float64]:
     coordinates = load_rig().coordinates
     q = coordinates.idle.copy()
-    *fingers, thumb = SHAPES[shape]
+    *fingers, thumb = (SHAPES | TOUCHES)[shape]
     for finger, angles in zip(FINGERS, fingers, strict=True):
         q[coordinates.index[f"{finger}_R_1.deviation"]] = 0.0
         for phalanx, angle in enumerate(angles, start=1):
@@ -127,8 +137,20 @@ def test_a_way_is_searched_once_and_what_is_found_does_not_depend_on_what_came_b
     assert one.offsets(grid + GRID_RAD, members, WAY_S, "R") is not found
 
 
-def test_most_samples_of_a_way_are_half_way() -> None:
-    steps = np.diff(SHARES)
+def test_no_sample_of_a_way_is_far_from_the_next_where_a_thumb_leaves_a_touch() -> None:
     assert SHARES[[0, -1]] == pytest.approx([0.0, 1.0])
-    assert np.argmin(steps) in (SAMPLES // 2 - 1, SAMPLES // 2, SAMPLES // 2 + 1)
-    assert np.all(steps > 0)
+    assert np.diff(SHARES) == pytest.approx(1.0 / (SAMPLES + 1))
+    assert 0.2 * np.diff(SHARES).max() < 0.0125
+
+
+def test_a_thumb_leaves_a_touch_without_going_through_the_finger() -> None:
+    """E to I: the capsules are as deep in the touch as on the way, the skins only on the way."""
+    movement = straight(*TOUCHES)
+    times = np.linspace(0.0, WAY_S, 41)
+
+    def deepest_skin(way: Movement) -> float:
+        depths = digit_skin(load_rig(), "R").depths(way.sample(times))
+        return float(np.max(depths - np.maximum(depths[0], depths[-1])))
+
+    assert deepest_skin(movement) > 0.003
+    assert deepest_skin(passed(movement)) < 0.002

@@ -92,6 +92,14 @@ def test_crossed_fingers_lie_on_each_other(body: str) -> None:
     index, middle = (rig.sites[f"{tip}_TIP_R"].point(before) for tip in "IM")
     was = (before.rotations[rig.bones["palm_R"].node].T @ (middle - index))[0]
     assert np.sign(thumbwards) == -np.sign(was)
+    beside, joints = (
+        frames.positions[rig.bones[f"index_R_{k}"].node]
+        - frames.positions[rig.bones[f"middle_R_{k}"].node]
+        for k in (1, 3)
+    )
+    tips = rig.sites["M_TIP_R"].point(frames) - rig.sites["I_TIP_R"].point(frames)
+    assert tips @ beside > 0.45 * (beside @ beside)  # as people's, along the line of the knuckles
+    assert -(palm.T @ joints)[2] > 0.004  # in front of the index, on the palm's side
     assert gap_m(rig, q, "index", "middle") < 2 * TOUCHING_M
     assert deepest_m(rig, q) < DEEPEST_M
 

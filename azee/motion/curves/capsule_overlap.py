@@ -13,6 +13,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from azee_rig.rig import Rig
 from azee_solver.anatomy import Part, anatomy
 from azee_solver.collisions import Obstacles
 from azee_solver.constraint import Constraint, Place
@@ -47,6 +48,11 @@ class CapsuleOverlaps:
         self.same_hand: NDArray[np.bool_] = np.logical_not(arms)
         self.clearance_m: Array = np.where(arms, CLEARANCE_M, FINGER_CLEARANCE_M)
         self._axis_distances = lru_cache(maxsize=64)(self._axis_distances_with)
+
+    @property
+    def rig(self) -> Rig:
+        """The body."""
+        return self._rig
 
     def moved_by(self, pair: int) -> list[int]:
         """Coordinates that change the distance of a pair."""

@@ -33,6 +33,8 @@ DEEP_M = 0.0015
 """Digits that overlap deeper, and than at both ends of the way, collide."""
 LONGEST_S = 1.5
 """Longer ways return to rest meanwhile, or are no ways between handshapes."""
+QUICK_S = 0.6
+"""On longer ways, as from rest, skins are measured only where capsules collide."""
 SIDES: tuple[Side, Side] = ("L", "R")
 
 
@@ -53,7 +55,13 @@ class FingerPassage:
             ways = [*self._ways(movement, side)]
             for way, (q, depths) in zip(ways, self._measured(movement, ways, side), strict=True):
                 deepest = depths.max(axis=0)
-                if np.any(deepest > np.maximum(DEEP_M, depths[[0, -1]].max(axis=0) + DEEP_M)):
+                collides = np.any(
+                    deepest > np.maximum(DEEP_M, depths[[0, -1]].max(axis=0) + DEEP_M)
+                )
+                near = self.search.hands[side].thumb.near(depths[1:-1]).any()
+                moves = np.ptp(q[:, self.search.hands[side].coordinates], axis=0).any()
+                quick = way.end_s - way.start_s <= QUICK_S
+                if moves and (collides or (quick and near)):
                     yield from self._round(movement, way, q, side)
 
     def _ways(self, movement: Movement, side: str) -> Iterator[_Way]:

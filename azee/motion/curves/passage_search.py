@@ -20,9 +20,9 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from azee.clip.spline import minimum_jerk
 from azee.motion.curves.capsule_overlap import CapsuleOverlaps
 from azee.motion.curves.offset_search import Offset, OffsetSearch
+from azee.motion.curves.thumb_skin import ThumbSkin
 from azee.motion.curves.via_points import ViaPoint
 from azee_rig.coordinates import Coordinates
 from azee_solver.evaluate import Evaluator
@@ -43,12 +43,15 @@ WORTHWHILE = 0.9
 """Offsets are used if they leave at most this share of the shortfall."""
 TRIES = 8
 """So many starts are searched from."""
+SLIGHT_M = 0.003
+"""Where capsules lack less, the straight way is searched from first."""
+ROUNDS = 4
+"""So often the skin may say where capsules must be farther apart."""
 SAMPLES = 16
 """On a way, its ends not counted."""
-_EVEN, _FINE = np.linspace(0.0, 1.0, SAMPLES + 2), np.linspace(0.0, 1.0, 1001)
-SHARES: Array = (_EVEN + np.interp(_EVEN, minimum_jerk(_FINE), _FINE)) / 2.0
-"""When a way is measured, as shares of its time: between even steps in time and even steps of the
-joints. Half-way all move fastest, and a thumb crosses a finger within .03 s of .2 s."""
+SHARES: Array = np.linspace(0.0, 1.0, SAMPLES + 2)
+"""When a way is measured, as shares of its time: in even steps. Half-way all move fastest, and a
+thumb crosses a finger within .03 s of .2 s; out of a touch it goes as fast, near an end."""
 GRID_RAD = 0.0005
 """Ways are told apart by coordinates in steps of this: a fingertip moves by .1 mm."""
 MOST_KNOWN = 4000
@@ -72,6 +75,7 @@ class Hand:
 
     pairs: NDArray[np.int64]
     coordinates: NDArray[np.int64]
+    thumb: ThumbSkin
 
 
 class PassageSearch:
@@ -128,27 +132,99 @@ class PassageSearch:
             self._coordinates.lower,
             self._coordinates.upper,
         )
-        pairs = self.hands[side].pairs
-        depths = self.overlaps.depths(q, search.axis_distances, pairs)
-        allowed = search.allowed_depths(depths, pairs)
-        before = float(np.max(depths - allowed, initial=0.0))
-        if before <= ENOUGH_M:
-            return None
-        best: Offset | None = None
+        hand = self.hands[side]
+        capsules = self.overlaps.depths(q, search.axis_distances, hand.pairs)
+        allowed = search.allowed_depths(capsules, hand.pairs)
+        held = hand.thumb.depths(q[[0, -1]], capsules[[0, -1]])
+        judge = _Judge(search, hand, allowed, hand.thumb.allowed(held, len(q)))
+        shortfall = float(np.max(capsules - allowed, initial=0.0))
+        straight: _Judged | None = None
+        if shortfall <= ENOUGH_M:
+            straight = judge.judged(q, capsules)
+            if straight.worst_m <= ENOUGH_M:
+                return None
         index = self._coordinates.index
         starts = [
             np.clip(start, -search.most, search.most)
             for start in _starts(q[0, members], q[-1, members], members, index, side)
         ]
-        for start in _by_cost(search, starts, pairs, allowed)[:TRIES]:
-            found = search.smallest(start, pairs, allowed, ENOUGH_M)
-            if best is None or found.shortfall_m < best.shortfall_m:
-                best = found
-            if best.shortfall_m <= ENOUGH_M:
+        best: _Judged | None = None
+        found = np.zeros(2 * len(members)) if shortfall < SLIGHT_M else None
+        for _ in range(ROUNDS):
+            on_capsules = _round(search, starts, found, hand.pairs, allowed)
+            wanted = search.offset_by(on_capsules)
+            at = np.clip(wanted, search.lower, search.upper)
+            capsules = self.overlaps.depths(at, search.axis_distances, hand.pairs)
+            judged = judge.judged(at, capsules, on_capsules)
+            best = judged if best is None or judged.worst_m < best.worst_m else best
+            if best.worst_m <= ENOUGH_M:
                 break
-        if best is None or best.shortfall_m > WORTHWHILE * before:
-            return None
-        return best.values
+            allowed = hand.thumb.parted(allowed, capsules, judged.excess)
+            found = on_capsules
+        assert best is not None  # there are rounds
+        if best.worst_m > ENOUGH_M:
+            straight = straight or judge.judged(
+                q, self.overlaps.depths(q, search.axis_distances, hand.pairs)
+            )
+            if best.worst_m > WORTHWHILE * straight.worst_m:
+                return None
+        return best.offsets
+
+
+def _round(
+    search: OffsetSearch,
+    starts: Sequence[Array],
+    before: Array | None,
+    pairs: NDArray[np.int64],
+    allowed: Array,
+) -> Array:
+    """Return the best offsets on capsules, (2 n,).
+
+    Args: before: from which it starts, if any, before it takes the starts in order of their cost.
+    """
+    best: Offset | None = None
+    if before is not None:
+        best = search.smallest(before, pairs, allowed, ENOUGH_M)
+        if best.shortfall_m <= ENOUGH_M:
+            return best.values
+    for start in _by_cost(search, starts, pairs, allowed)[:TRIES]:
+        found = search.smallest(start, pairs, allowed, ENOUGH_M)
+        if best is None or found.shortfall_m < best.shortfall_m:
+            best = found
+        if best.shortfall_m <= ENOUGH_M:
+            break
+    assert best is not None  # there are starts
+    return best.values
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Judged:
+    """A way, how deep anything is beyond what it may be, and (T, F) what the skin is."""
+
+    offsets: Array | None
+    worst_m: float
+    excess: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Judge:
+    """Judges ways: of thumbs by their skin, of fingers among themselves by their capsules.
+
+    allowed: (T, P) of capsules. skin: (T, F) of skins.
+    """
+
+    search: OffsetSearch
+    hand: Hand
+    allowed: Array
+    skin: Array
+
+    def judged(self, q: Array, capsules: Array, offsets: Array | None = None) -> _Judged:
+        """Judge the postures of a way, (T, V), whose capsules are so deep, (T, P)."""
+        skins = self.hand.thumb.depths(q, capsules)
+        fingers = self.hand.thumb.finger < 0
+        beyond = float(np.max((capsules - self.allowed)[:, fingers], initial=0.0))
+        excess = skins - self.skin
+        return _Judged(offsets, max(beyond, float(np.max(excess, initial=0.0))), excess)
 
 
 @lru_cache(maxsize=8)
@@ -167,7 +243,8 @@ def _hand(overlaps: CapsuleOverlaps, side: Side) -> Hand:
     own = np.flatnonzero(overlaps.same_hand)
     pairs = own[[f"_{side}_" in overlaps.names(pair)[0] for pair in own.tolist()]]
     moving = {v for pair in pairs.tolist() for v in overlaps.moved_by(pair)}
-    return Hand(pairs, np.array(sorted(moving), dtype=np.int64))
+    coordinates = np.array(sorted(moving), dtype=np.int64)
+    return Hand(pairs, coordinates, ThumbSkin.of(overlaps.rig, overlaps, pairs, side))
 
 
 def _starts(
@@ -193,7 +270,7 @@ def _starts(
     thumb_first = np.where(thumb, turn, -turn)
     for opened in (shape(), shape(_OPEN), shape(_ASIDE), shape(_OPEN, _ASIDE),
                    shape(_BEFORE), shape(_OPEN, _BEFORE)):  # fmt: skip
-        for early, late in ((0.7, 0.7), (1.2, 0.2), (0.2, 1.2)):
+        for early, late in ((0.7, 0.7), (1.2, 0.2), (0.2, 1.2)) if opened.any() else ((1.0, 1.0),):
             for order in (0.0, 1.0, -1.0):
                 way = order * thumb_first
                 yield np.concatenate([early * opened + way, late * opened + way])
@@ -202,15 +279,19 @@ def _starts(
 def _by_cost(
     search: OffsetSearch, starts: Sequence[Array], pairs: NDArray[np.int64], allowed: Array
 ) -> list[Array]:
-    """Return the starts in the order of what they cost, which one call measures."""
-    wanted = np.tile(search.q, (len(starts), 1, 1))
+    """Return the starts in the order of what they cost, which one call measures.
+
+    Every second sample tells that well enough.
+    """
+    some = slice(1, None, 2)
+    wanted = np.tile(search.q[some], (len(starts), 1, 1))
     for half in np.split(np.arange(len(search.members)), len(PEAKS)):
-        weighted = search.weights[:, half] * np.stack(starts)[:, None, half]
+        weighted = search.weights[some, half] * np.stack(starts)[:, None, half]
         wanted[:, :, search.members[half]] += weighted
     wanted = wanted.reshape(-1, wanted.shape[-1])
     q = np.clip(wanted, search.lower, search.upper)
     depths = search.overlaps.depths(q, search.axis_distances, pairs)
-    beyond = np.maximum(depths.reshape(len(starts), *allowed.shape) - allowed, 0.0)
+    beyond = np.maximum(depths.reshape(len(starts), -1, len(pairs)) - allowed[some], 0.0)
     costs = [
         float(np.sum(each**2) + search.price_m**2 * np.sum(start**2))
         for each, start in zip(beyond, starts, strict=True)

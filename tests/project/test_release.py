@@ -38,8 +38,8 @@ def test_all_files_agree_on_version_and_dependencies() -> None:
     [
         ("CITATION.cff", "version: 0.1.0", "version: 0.2.0", "CITATION.cff does not have"),
         ("CHANGELOG.md", "## 0.1.0 –", "## 0.2.0 –", "CHANGELOG.md has no section"),
-        ("packaging/conda/meta.yaml", "- lark >=1.2\n", "", "lark>=1.2 is only in pyproject"),
-        ("packaging/conda/meta.yaml", "- lark >=1.2", "- lark >=1.0", "lark>=1.0 is only there"),
+        ("packaging/conda/meta.yaml", "- lark >=1.2.1\n", "", "lark>=1.2.1 is only in pyproject"),
+        ("packaging/conda/meta.yaml", "- lark >=1.2.1", "- lark >=1.0", "lark>=1.0 is only there"),
     ],
 )
 def test_a_file_that_differs_is_named(

@@ -16,7 +16,7 @@ FILE = Path(__file__).parent / "data" / "Roboto-Regular.ttf"
 @lru_cache(maxsize=16)
 def typeface(size_px: float) -> ImageFont.FreeTypeFont:
     """Return the typeface at a size in pixels."""
-    return ImageFont.truetype(FILE, size_px, layout_engine=ImageFont.Layout.BASIC)
+    return ImageFont.truetype(str(FILE), size_px, layout_engine=ImageFont.Layout.BASIC)
 
 
 def fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:

@@ -36,7 +36,7 @@ DRIFT_DEG: Mapping[str, float] = {
     "palm": 0.4,
 }  # fmt: skip
 """Root mean square of the drift of coordinates, by the beginning of their bones' names."""
-FINGER_DRIFT_DEG = 0.8
+FINGER_DRIFT_DEG = 0.6
 
 BREATH_S, BREATH_SPREAD = 3.8, 0.15
 """Mean length of a breath, and the standard deviation as a share of it."""

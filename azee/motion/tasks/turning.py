@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.requirement import Requirement
-from azee.score.score import Group, Key, Score
+from azee.score.rebuilt import rebuilt
+from azee.score.score import Score
 from azee_solver.constraint import BoneAxis, Constraint, Orient, Relation
 from azee_solver.geometry import Side, Swing
 
@@ -32,7 +34,7 @@ def with_turns(score: Score, dominant: Side) -> Score:
         same = [r for r in known if _axis(r.constraint, dominant) == own]
         ways[turn.path, turn.constraint] = _way(turn, same)
     ways = {key: _together(way, key[0], ways) for key, way in ways.items()}
-    return _rebuilt(score, ways, ())
+    return rebuilt(score, partial(_with_ways, ways))
 
 
 def is_turn(constraint: Constraint) -> bool:
@@ -99,21 +101,11 @@ def _together(
     return way
 
 
-def _rebuilt(
-    score: Score,
-    ways: dict[tuple[tuple[str, ...], Constraint], Orient | None],
+def _with_ways(
+    ways: Mapping[tuple[tuple[str, ...], Constraint], Orient | None],
     path: tuple[str, ...],
-) -> Score:
-    if isinstance(score, Group):
-        blocks = (replace(b, score=_rebuilt(b.score, ways, (*path, b.name))) for b in score.blocks)
-        return replace(score, blocks=tuple(blocks))
-    if not isinstance(score, Key):
-        return score
-    constraints: list[Constraint] = []
-    for constraint in score.constraints:
-        if isinstance(constraint, Orient) and is_turn(constraint):
-            way = ways[path, constraint]
-            constraints += [] if way is None else [way]
-        else:
-            constraints.append(constraint)
-    return replace(score, constraints=tuple(constraints))
+    found: tuple[Constraint, ...],
+) -> tuple[Constraint, ...]:
+    """Return the constraints of a key, turns with their ways; those without one are left out."""
+    known = (ways[path, c] if is_turn(c) else c for c in found)
+    return tuple(c for c in known if c is not None)

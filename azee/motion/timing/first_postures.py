@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from typing import TypeAlias
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,12 +13,10 @@ from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.key_posture import KeyPosture, PostureSolver
 from azee.motion.tasks.key_selection import KeySelection
 from azee.motion.tasks.schedule import bind
-from azee.score.score import Group, Key, Score
-from azee_solver.constraint import Constraint
+from azee.score.score import Score
 from azee_solver.evaluate import Evaluator
 
 Array = NDArray[np.float64]
-Path: TypeAlias = tuple[str, ...]
 
 
 def first_postures(
@@ -41,16 +35,3 @@ def first_postures(
         rig.coordinates, selection, solver, index_by_time(motions), neutral, schedule.recorded
     )
     return solve_boundaries(schedule, keys, evaluator, deferred).postures
-
-
-def rebuilt(
-    score: Score, change: Callable[[Path, tuple[Constraint, ...]], tuple[Constraint, ...]],
-    path: Path = (),
-) -> Score:  # fmt: skip
-    """Return the score with the constraints of all its keys changed."""
-    if isinstance(score, Key):
-        return replace(score, constraints=change(path, score.constraints))
-    if isinstance(score, Group):
-        blocks = (replace(b, score=rebuilt(b.score, change, (*path, b.name))) for b in score.blocks)
-        return replace(score, blocks=tuple(blocks))
-    return score

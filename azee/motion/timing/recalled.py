@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from azee.motion.tasks.key_posture import KeyPosture, PostureSolver
 from azee.motion.tasks.key_selection import KeySelection
-from azee.motion.timing.first_postures import first_postures, rebuilt
+from azee.motion.timing.first_postures import first_postures
+from azee.score.rebuilt import rebuilt
 from azee.score.score import Group, Key, Score
 from azee_solver.binding import BindingError
 from azee_solver.constraint import Constraint

@@ -20,7 +20,8 @@ from azee.motion.tasks.flatten import flatten
 from azee.motion.tasks.key_posture import KeyPosture, PostureSolver
 from azee.motion.tasks.key_selection import KeySelection
 from azee.motion.tasks.requirement import Requirement
-from azee.motion.timing.first_postures import first_postures, rebuilt
+from azee.motion.timing.first_postures import first_postures
+from azee.score.rebuilt import rebuilt
 from azee.score.score import Score
 from azee_rig.chain import Frames
 from azee_solver import kinematics

@@ -78,6 +78,12 @@ class Server(LanguageServer):
         for uri in self.texts.open:
             self.check_soon(uri)
 
+    def check_no_more(self) -> None:
+        """Forget what was to be checked: nobody can be told any more."""
+        for waiting in self._waiting.values():
+            waiting.cancel()
+        self._waiting.clear()
+
     def _check(self, uri: str) -> None:
         self._waiting.pop(uri, None)
         document = self.texts.open.get(uri)
@@ -117,6 +123,10 @@ def _follow_texts(server: Server) -> None:
         if not roots and server.workspace.root_uri:
             roots = [path_of(server.workspace.root_uri)]
         texts.roots = tuple(root for root in roots if root is not None)
+
+    @server.feature(types.EXIT)
+    def leaving(_: None) -> None:
+        server.check_no_more()
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: types.DidOpenTextDocumentParams) -> None:

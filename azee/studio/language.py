@@ -83,6 +83,8 @@ class Language:
 
     def _end(self) -> None:
         self._writer.close()
+        if self._server is not None:
+            self._server.check_no_more()
         self._server = None
 
     def _handle(self, message: Mapping[str, Any]) -> None:
@@ -93,6 +95,8 @@ class Language:
         text = json.dumps(message)
         try:
             protocol.handle_message(json.loads(text, object_hook=protocol.structure_message))
+        except SystemExit:  # the page said `exit`; the server is of all pages
+            self._end()
         except JsonRpcException:
             logging.getLogger(__name__).debug("a message was not understood", exc_info=True)
 

@@ -11,6 +11,9 @@ from editor import SOON_S, Editor, editor
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 
+from azee.lsp.document import Document
+from azee.lsp.server import PAUSE_S, make_server
+
 SIGNS = """\
 def été
     'meaning "summer"
@@ -341,3 +344,36 @@ def test_a_file_of_a_library_sees_the_others(tmp_path: Path) -> None:
         assert place.uri == one.uri("lib/a.azee")
 
     play(tmp_path, scene)
+
+
+class Output:
+    """A pipe to an editor, which counts what is written after it is closed."""
+
+    closed = False
+    late = 0
+
+    def close(self) -> None:
+        self.closed = True
+
+    def write(self, _: bytes) -> None:
+        self.late += self.closed
+        if self.closed:
+            raise ValueError("write to closed file")
+
+
+def test_a_server_that_leaves_checks_nothing_more(tmp_path: Path) -> None:
+    """A check that was due wrote to the closed pipe, told its own fault there, and never ended."""
+    server, output = make_server(), Output()
+    server.protocol.set_writer(output)
+    uri = (tmp_path / "a.azee").as_uri()
+    server.texts.put(Document(uri, ":caht\n", 1))
+
+    async def leave() -> None:
+        server.check_all()
+        with pytest.raises(SystemExit):
+            server.protocol.handle_message(types.ExitNotification())
+        await asyncio.sleep(2 * PAUSE_S)
+
+    asyncio.run(leave())
+    assert output.closed
+    assert output.late == 0

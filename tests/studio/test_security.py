@@ -120,6 +120,19 @@ def test_the_language_server_reads_nothing_outside_either(studio: Studio) -> Non
             assert "outside" in answer["error"]["message"]
 
 
+def test_a_page_that_ends_its_language_server_ends_no_other(studio: Studio) -> None:
+    start = {"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"capabilities": {}}}
+    with studio.live() as first, studio.live() as second:
+        for socket in (first, second):
+            socket.send(json.dumps({"kind": "lsp", "message": start}))
+            assert "result" in until(socket, "lsp")[0]["message"]
+        first.send(json.dumps({"kind": "lsp", "message": {"jsonrpc": "2.0", "method": "exit"}}))
+        ask = {"jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": {"query": "a"}}
+        for _ in range(2):
+            second.send(json.dumps({"kind": "lsp", "message": ask}))
+            assert "result" in until(second, "lsp")[0]["message"]
+
+
 def test_a_text_comes_as_score_and_movement(studio: Studio) -> None:
     with studio.live() as socket:
         job = {"kind": "compile", "number": 5, "file": "a.azee", "text": ":arbre\n"}

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from azee.animation import Animation
     from azee.clip.clip import Clip
     from azee.export.landmarks.view import View
+    from azee.export.pictures.renderer import Renderer
     from azee.export.track_rows import Row
     from azee.motion.tasks.tracks import Track
     from azee.score.provenance import Provenance
@@ -32,6 +33,15 @@ class ElanHeader:
 
     media: Path | None = None
     provenance: Provenance | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """From where a clip is seen, how many frames a second, and who draws them."""
+
+    camera: str
+    fps: float
+    renderer: Renderer = "software"
 
 
 @contextmanager
@@ -105,10 +115,10 @@ def _pose(clip: Clip, rig: Rig, path: Path) -> None:
     _pose_seen(clip, rig, path, View())
 
 
-def _pose_from(clip: Clip, rig: Rig, path: Path, camera: str, fps: float) -> None:
+def _pose_from(clip: Clip, rig: Rig, path: Path, seen: Seen) -> None:
     from azee.export.landmarks.view import View
 
-    _pose_seen(clip, rig, path, View(camera, fps=fps))
+    _pose_seen(clip, rig, path, View(seen.camera, fps=seen.fps))
 
 
 def _pose_seen(clip: Clip, rig: Rig, path: Path, view: View) -> None:
@@ -146,12 +156,14 @@ def _film(score: Score, rig: Rig, animation: Animation, path: Path) -> None:
         write_film(animation.clip, rig, path, fps=animation.report.fps)
 
 
-def _film_from(clip: Clip, rig: Rig, path: Path, camera: str, fps: float) -> None:
+def _film_from(clip: Clip, rig: Rig, path: Path, seen: Seen) -> None:
     from azee.export.pictures.film import write_film
     from azee.export.pictures.scene import Look
 
     with filming():
-        write_film(clip, rig, path, Look(shots=(camera,)), fps=fps)
+        write_film(
+            clip, rig, path, Look(shots=(seen.camera,), renderer=seen.renderer), fps=seen.fps
+        )
 
 
 @contextmanager
@@ -258,7 +270,7 @@ def save_score(
 ClipWriter: TypeAlias = "Callable[[Clip, Rig, Path], None]"
 ScoreWriter: TypeAlias = "Callable[[Score, Sequence[Row], ElanHeader, Path], None]"
 Writer: TypeAlias = "Callable[[Score, Rig, Animation, Path], None]"
-CameraWriter: TypeAlias = "Callable[[Clip, Rig, Path, str, float], None]"
+CameraWriter: TypeAlias = "Callable[[Clip, Rig, Path, Seen], None]"
 
 CLIP_WRITERS: dict[str, ClipWriter] = {
     ".glb": _glb,
@@ -300,5 +312,5 @@ CAMERA_WRITERS: dict[str, CameraWriter] = {
     **dict.fromkeys(FILM_SUFFIXES, _film_from),
     ".pose": _pose_from,
 }
-"""Formats of a clip that is seen from somewhere, by the name of a camera, with so many frames a
-second: of those in `WRITERS`, what `azee batch` writes for each camera."""
+"""Formats of a clip that is seen from somewhere: of those in `WRITERS`, what `azee batch` writes
+for each camera."""

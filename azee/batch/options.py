@@ -18,7 +18,8 @@ class Options:
     formats: suffixes, of `azee.formats.WRITERS`. hands: of the signer; the left-handed clip is the
     mirror image of the right-handed one. seeds: of breathing, blinking and sway; None is that of
     the score. speeds: factors by which the finished clip is faster. cameras: of formats that show
-    the body from somewhere; none if no format does. The others are those of `azee.compile`.
+    the body from somewhere; none if no format does. renderer: who draws films, of
+    `azee.export.pictures.renderer.CHOICES`. The others are those of `azee.compile`.
     """
 
     formats: tuple[str, ...]
@@ -26,6 +27,7 @@ class Options:
     seeds: tuple[int | None, ...] = (None,)
     speeds: tuple[float, ...] = (1.0,)
     cameras: tuple[str, ...] = ()
+    renderer: str = "software"
     fps: float = 30.0
     rest: Rest = "hanging"
     timing: Timing | None = None

@@ -13,8 +13,9 @@ from azee.arguments import FASTEST_TEMPO, SLOWEST_TEMPO
 from azee.cli.console import DONE, FAULT, bar, news
 from azee.cli.number import Number
 from azee.cli.text import library_option, rest_option, timing_options
+from azee.export.pictures.renderer import CHOICES
 from azee.export.pictures.shots import SHOTS
-from azee.formats import CAMERA_WRITERS, WRITERS
+from azee.formats import CAMERA_WRITERS, FILM_SUFFIXES, WRITERS
 
 if TYPE_CHECKING:
     from azee.batch.run import Summary
@@ -137,6 +138,13 @@ def _seed(value: str) -> int | None:
     callback=lambda c, p, v: () if v is None else _listed(_one_of(SHOTS, "camera"))(c, p, v),
     help=f"Of {', '.join(SHOTS)}; for {' and '.join(CAMERA_WRITERS)}. By default front.",
 )
+@click.option(
+    "--renderer",
+    default="software",
+    show_default=True,
+    type=click.Choice(CHOICES),
+    help="Who draws films: as for `azee render`.",
+)
 @click.option("--fps", type=Number(1, 1000), default=30, show_default=True, help="Frames a second.")
 @rest_option
 @timing_options
@@ -163,6 +171,7 @@ def batch(
     seeds: tuple[int | None, ...],
     speeds: tuple[float, ...],
     cameras: tuple[str, ...],
+    renderer: str,
     fps: float,
     rest: Rest,
     timing: Timing | None,
@@ -191,6 +200,9 @@ def batch(
     if cameras and not seen:
         known = ", ".join(suffix[1:] for suffix in CAMERA_WRITERS)
         raise click.UsageError(f"--cameras need a format that is seen from one: {known}")
+    if renderer != "software" and not set(FILM_SUFFIXES) & set(formats):
+        known = ", ".join(suffix[1:] for suffix in FILM_SUFFIXES)
+        raise click.UsageError(f"--renderer needs a film: {known}")
 
     from azee.batch.folder import opened
     from azee.batch.options import Options
@@ -198,8 +210,8 @@ def batch(
     from azee.batch.text import told_apart
 
     options = Options(
-        formats, hands, seeds, speeds, (cameras or ("front",)) if seen else (), float(fps), rest,
-        timing, float(tempo), precise, not no_life,
+        formats, hands, seeds, speeds, (cameras or ("front",)) if seen else (), renderer,
+        float(fps), rest, timing, float(tempo), precise, not no_life,
     )  # fmt: skip
     found = _bodies(bodies)
     texts = told_apart(_texts(sources, rules, quiet))

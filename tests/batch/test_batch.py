@@ -157,6 +157,22 @@ def test_seeds_move_life_and_leave_the_postures(tmp_path: Path) -> None:
     assert json.loads(same) == json.loads((tmp_path / "two.json").read_bytes())
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("renderer", ["software", "opengl"])
+def test_films_are_drawn_by_the_renderer_that_is_asked_for(
+    renderer: str, tmp_path: Path, request: pytest.FixtureRequest
+) -> None:
+    if renderer == "opengl":
+        request.getfixturevalue("opengl")
+    source = tmp_path / "text.azee"
+    source.write_text(TEXT, encoding="utf-8")
+    out = tmp_path / "out"
+    ran(source, out, Options((".mp4",), cameras=("face",), renderer=renderer, fps=4))
+    (row,) = rows(out)
+    assert row["renderer"] == renderer
+    assert (out / row["files"]["mp4"]).stat().st_size > 1000
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -168,6 +184,7 @@ def test_seeds_move_life_and_leave_the_postures(tmp_path: Path) -> None:
         (["--speeds", "1,fast"], "`fast` is no speed from 0.1 to 10"),
         (["--cameras", "front"], "--cameras need a format that is seen from one: mp4"),
         (["--formats", "mp4", "--cameras", "above"], "there is no camera `above`"),
+        (["--renderer", "auto"], "--renderer needs a film: mp4, webm"),
         (["--workers", "0"], "0 is not in the range"),
         (["--workers", "2", "--scheduler", "tcp://127.0.0.1:1"], "do not go with --scheduler"),
     ],

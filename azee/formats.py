@@ -7,7 +7,7 @@ pages of the manual to them.
 from __future__ import annotations
 
 import errno
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -194,6 +194,19 @@ def drawing() -> Iterator[None]:
         yield
     except NoOpenGLError as error:
         raise AZeeError(Diagnostic("not-installed", str(error), None, help=error.remedy)) from error
+
+
+def films_drawn_by(suffixes: Iterable[str], renderer: str) -> Renderer | None:
+    """Return who draws films on this machine, for one of `renderer.CHOICES`.
+
+    None where no suffix is that of a film. Raises: AZeeError: not-installed.
+    """
+    if not set(FILM_SUFFIXES).intersection(suffixes):
+        return None
+    from azee.export.pictures.renderer import resolved
+
+    with drawing():
+        return resolved(renderer)[0]
 
 
 def _score_svg(score: Score, rows: Sequence[Row], header: ElanHeader, path: Path) -> None:

@@ -9,7 +9,7 @@ import traceback
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from azee.animation import default_solver
 from azee.batch.record import Record, failure, keep_record, kept_record, passing, record_path
@@ -18,7 +18,7 @@ from azee.batch.variation import Variation, varied
 from azee.batch.version import installed_version
 from azee.compilation import Compilation, perform
 from azee.export.files import remove_parts
-from azee.formats import CAMERA_WRITERS, FILM_SUFFIXES, Seen, drawing, writing
+from azee.formats import CAMERA_WRITERS, Seen, films_drawn_by, writing
 from azee.lang.program import Program, load
 from azee.lang.provenance import provenance_of, written
 from azee.motion.overlay.seed import seed_of
@@ -28,10 +28,6 @@ from azee_grammar.diagnostic import AZeeError, Diagnostic
 from azee_grammar.render import to_json
 from azee_rig.load import RigError, load_rig
 from azee_solver.geometry import Side
-
-if TYPE_CHECKING:
-    from azee.batch.options import Options
-    from azee.export.pictures.renderer import Renderer
 
 
 def work(task: Task, out: Path) -> Record:
@@ -154,7 +150,7 @@ def _written(
     Raises: AZeeError: cannot-write, not-installed.
     """
     options = task.options
-    drawn_by = _renderer(options)
+    drawn_by = films_drawn_by(options.formats, options.renderer)
     began = time.perf_counter()
     files = {}
     for suffix in options.formats:
@@ -186,16 +182,6 @@ def _written(
             "files": {**files, **seen},
             "seconds": {"write": round(shared_s + time.perf_counter() - began, 4)},
         }
-
-
-def _renderer(options: Options) -> Renderer | None:
-    """Return who draws films here; None where there are none. Raises: AZeeError: not-installed."""
-    if not set(FILM_SUFFIXES) & set(options.formats):
-        return None
-    from azee.export.pictures.renderer import resolved
-
-    with drawing():
-        return resolved(options.renderer)[0]
 
 
 def _file_names(task: Task) -> Iterator[str]:

@@ -24,7 +24,7 @@ _MOST_KINDS = 12
 
 @click.group()
 def lexicon() -> None:
-    """Import notated signs as rules, and look through what was imported."""
+    """Import notated signs as rules, and look through them."""
 
 
 lexicon.add_command(show_sign)

@@ -16,75 +16,21 @@ from typing import NoReturn
 
 import click
 
-from azee.cli.batch import batch
-from azee.cli.blocks import blocks
-from azee.cli.capture import capture
-from azee.cli.check import check
-from azee.cli.clip import clip
-from azee.cli.compile import compile_
+from azee.cli.commands import Commands
 from azee.cli.console import DONE, FAULT, INTERRUPTED, show
-from azee.cli.corpus import corpus
-from azee.cli.db import db
-from azee.cli.elan import elan
-from azee.cli.export import export
-from azee.cli.find import find
-from azee.cli.fmt import fmt
-from azee.cli.gloss import gloss
-from azee.cli.lexicon import lexicon
-from azee.cli.lsp import lsp
-from azee.cli.manifest import manifest
-from azee.cli.mcp import mcp
-from azee.cli.play import play
-from azee.cli.pose import pose
-from azee.cli.render import render
-from azee.cli.repl import repl
-from azee.cli.retarget import retarget
-from azee.cli.rig import rig
-from azee.cli.rules import rules
-from azee.cli.score import score
-from azee.cli.spell import spell
-from azee.cli.studio import studio
-from azee.cli.study import study
 from azee_grammar.diagnostic import AZeeError, Diagnostic
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 """Why output cannot be written, though somebody takes it."""
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.group(
+    commands=Commands(),
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
 @click.version_option(package_name="azee")
 def azee() -> None:
     """Interpret AZee, a formal language of sign languages, and compile it to a signing body."""
-
-
-azee.add_command(compile_)
-azee.add_command(batch)
-azee.add_command(check)
-azee.add_command(fmt)
-azee.add_command(blocks)
-azee.add_command(score)
-azee.add_command(pose)
-azee.add_command(render)
-azee.add_command(clip)
-azee.add_command(export)
-azee.add_command(find)
-azee.add_command(lexicon)
-azee.add_command(gloss)
-azee.add_command(corpus)
-azee.add_command(db)
-azee.add_command(elan)
-azee.add_command(lsp)
-azee.add_command(mcp)
-azee.add_command(rules)
-azee.add_command(manifest)
-azee.add_command(rig)
-azee.add_command(retarget)
-azee.add_command(capture)
-azee.add_command(repl)
-azee.add_command(play)
-azee.add_command(spell)
-azee.add_command(studio)
-azee.add_command(study)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -17,6 +17,9 @@ from azee_rig.skeleton import Skeleton
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+SLIVER = 1e-12
+"""Square of the sine of a corner below which a triangle has no area."""
+
 
 @dataclass(frozen=True, eq=False)
 class Surface:
@@ -26,9 +29,17 @@ class Surface:
     skeleton: Skeleton
 
     @cached_property
+    def met(self) -> NDArray[np.intp]:
+        """Triangles that a ray can meet: all with an area."""
+        corners = self.mesh.vertices[self.mesh.triangles]
+        along, across = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        squares = (along**2).sum(axis=1) * (across**2).sum(axis=1)
+        return np.flatnonzero(squares - (along * across).sum(axis=1) ** 2 > SLIVER * squares)
+
+    @cached_property
     def tree(self) -> trimesh.Trimesh:
-        """The mesh as trimesh sees it."""
-        return trimesh.Trimesh(self.mesh.vertices, self.mesh.triangles, process=False)
+        """The triangles of `met` as trimesh sees them."""
+        return trimesh.Trimesh(self.mesh.vertices, self.mesh.triangles[self.met], process=False)
 
     def on_parts(self, *names: str) -> Mask:
         """Triangles of some parts, (F,)."""
@@ -53,9 +64,10 @@ class Surface:
         The normal is interpolated from the vertices. Raises ValueError when nothing is met.
         """
         direction = toward / np.linalg.norm(toward)
-        places, _, triangles = self.tree.ray.intersects_location(
+        places, _, found_in = self.tree.ray.intersects_location(
             [start], [direction], multiple_hits=True
         )
+        triangles = self.met[found_in]
         distance = (places.reshape(-1, 3) - start) @ direction
         usable = [i for i in np.argsort(distance) if allowed[triangles[i]]]
         if not usable:

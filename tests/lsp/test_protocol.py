@@ -364,14 +364,15 @@ class Output:
 def test_a_server_that_leaves_checks_nothing_more(tmp_path: Path) -> None:
     """A check that was due wrote to the closed pipe, told its own fault there, and never ended."""
     server, output = make_server(), Output()
-    server.protocol.set_writer(output)
+    protocol, leaving = server.protocol, {"jsonrpc": "2.0", "method": "exit"}
+    protocol.set_writer(output)
     uri = (tmp_path / "a.azee").as_uri()
     server.texts.put(Document(uri, ":caht\n", 1))
 
     async def leave() -> None:
         server.check_all()
         with pytest.raises(SystemExit):
-            server.protocol.handle_message(types.ExitNotification())
+            protocol.handle_message(protocol.structure_message(leaving))
         await asyncio.sleep(2 * PAUSE_S)
 
     asyncio.run(leave())

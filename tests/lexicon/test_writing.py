@@ -274,3 +274,21 @@ def test_a_bare_contact_of_one_hand_is_with_the_place_that_it_is_at() -> None:
     )
     assert "place @PA(s) @CH 'contact" in text
     assert "(w" not in text
+
+
+def test_a_hand_that_its_palm_leads_comes_back_by_its_palm() -> None:
+    """Else the fingertip would be where it was when the fingers pointed elsewhere."""
+    turning = (
+        '<par_motion><directedmotion direction="{way}"/><tgt_motion><changeposture/>'
+        '<handconfig extfidir="{to}"/></tgt_motion></par_motion>'
+    )
+    text = _rule(
+        f'<sign_manual>{POINTING_UP}<location_bodyarm location="chin" contact="touch">'
+        '<location_hand location="tip" digits="2"/></location_bodyarm>'
+        f"{turning.format(way='o', to='o')}"
+        f'<rpt_motion repetition="fromstart">{turning.format(way="l", to="u")}</rpt_motion>'
+        "</sign_manual>"
+    )
+    assert "@I_TIP(s) :from(" not in text
+    assert text.count("shift @PA(s) :way('out = -.144) 'from") == 2
+    assert text.count("shift @PA(s) :way('out = .144) 'from") == 1

@@ -16,7 +16,7 @@ from azee.lexicon.numbers import number
 from azee.lexicon.phrase import CircleWay, Moment, Move, Phrase, StraightWay
 from azee.lexicon.places import Site, other
 from azee.lexicon.sizes import HELD_S
-from azee.lexicon.vectors import Vector, dot
+from azee.lexicon.vectors import Vector, dot, times
 
 _ON_THE_WAY_M = 0.01
 """How far off its way a hand may be that turns or changes on it."""
@@ -150,10 +150,18 @@ def _placed(before: Moment | None, moment: Moment, site: Site | None) -> list[st
 
 
 def _way(before: Moment | None, moment: Moment) -> Vector | None:
-    """Return how far a hand moved since a moment, if it is said so."""
+    """Return how far a hand moved since a moment, on or back, if it is said so.
+
+    Back to a place that it had moved to; one that it started at is a place again.
+    """
     if before is None or before.hand.place is None or moment.hand.place is None:
         return None
-    return moment.hand.place.way_from(before.hand.place)
+    start, end = before.hand.place, moment.hand.place
+    on = end.way_from(start)
+    if on is not None or end.origin is None:
+        return on
+    back = start.way_from(end)
+    return None if back is None else times(back, -1)
 
 
 def _sites(moments: Sequence[Moment]) -> list[Site | None]:

@@ -15,10 +15,13 @@ from azee.lexicon.hand_text import Told
 from azee.lexicon.hands import NO_FLIP, Hands, changed, flip_of, flipped, flipped_axis
 from azee.lexicon.model import (
     Circle,
+    Constellation,
     FingerPlay,
     ForEach,
     InTurn,
+    Location,
     Movement,
+    OnBody,
     Repeat,
     Still,
     Straight,
@@ -39,7 +42,7 @@ from azee.lexicon.phrase import (
     joined,
 )
 from azee.lexicon.phrase import together as stretched_together
-from azee.lexicon.places import other
+from azee.lexicon.places import Place, other
 from azee.lexicon.posing import Posing
 from azee.lexicon.sizes import (
     BACK,
@@ -53,7 +56,7 @@ from azee.lexicon.sizes import (
     slowness,
 )
 from azee.lexicon.tremors import finger_play, wrist_tremor
-from azee.lexicon.vectors import ZERO, Vector, is_close, times
+from azee.lexicon.vectors import ZERO, Vector, is_close, plus, times
 
 MOST_STEPS = 400
 """The most single movements of a sign; more are a notation that repeats repetitions."""
@@ -94,6 +97,8 @@ class Mover:
     told: Told
     steps: list[Movement] = field(default_factory=list)
     """The movements performed so far."""
+    where: Location | None = None
+    """Where the notation last said that the hands are."""
 
     def perform(
         self, move: Movement, hands: Hands, sides: Sides, slow: float = 1.0
@@ -175,17 +180,23 @@ class Mover:
     ) -> tuple[Phrase, Hands]:
         """Perform movements that end in a posture; where it has a place, they only shape the way.
 
-        (Measured on the engine, and D: the public DTD.)
+        (Measured on the engine, and D: the public DTD.) Where two hands that do the same end beside
+        each other at no place that is said, they go there together.
         """
         before = hands
         phrase, hands = self._together([(part, sides) for part in move.moves], hands, slow)
-        location = move.posture.location
+        location = self._meant(move.posture.location)
         if location is not None:
+            self.where = location
+            meeting = _meeting(before, hands) if self._meet(location) else None
             hands = {
                 name: replace(hand, place=before[name].place, site=before[name].site)
                 for name, hand in hands.items()
             }
-        hands = Posing(self.symmetry, self.told).pose(move.posture, hands, sides)
+            if meeting is not None:
+                hands = {**hands, "w": replace(hands["w"], place=meeting)}
+        posture = replace(move.posture, location=location)
+        hands = Posing(self.symmetry, self.told).pose(posture, hands, sides)
         length_s = max(phrase.duration_s, STEP_S * slow)
         parts = [phrase]
         if location is not None:
@@ -193,6 +204,26 @@ class Mover:
             went = [n for n in ("s", "w") if hands[n].place != before[n].place and n not in moving]
             parts.append(Phrase(moves=[Move(0, length_s, n, StraightWay()) for n in went]))
         return joined(length_s, parts), hands
+
+    def _meant(self, location: Location | None) -> Location | None:
+        """Return a location of which only the contact is said: that of the last one, with it."""
+        if not isinstance(location, Constellation):
+            return location
+        if location != Constellation(contact=location.contact):
+            return location
+        if isinstance(self.where, OnBody):
+            return replace(self.where, contact=location.contact)
+        if isinstance(self.where, Constellation):
+            return replace(self.where, contact=location.contact, place=None)
+        return location
+
+    def _meet(self, location: Location) -> bool:
+        """Whether two hands that do the same end beside each other, and it is not said where."""
+        return (
+            self.symmetry is not None
+            and isinstance(location, Constellation)
+            and location.place is None
+        )
 
     # Movements ----------------------------------------------------------------------------------
 
@@ -297,6 +328,33 @@ class Mover:
             if not last:
                 parts.append(_moments(time_s, hands, sides))
         return joined(time_s, parts), hands
+
+
+def _meeting(before: Hands, after: Hands) -> Place | None:
+    """Return where two hands meet that went the same way or towards each other.
+
+    Halfway between where they were before, farther on by the way that they have in common. None
+    where only one of them moved, or nothing in space tells where halfway is.
+    """
+    strong, weak = before["s"].place, before["w"].place
+    if strong is None or weak is None:
+        return None
+    ways = {name: _way(before[name].place, after[name].place) for name in ("s", "w")}
+    if strong.is_at_hand and after["s"].place == strong:
+        ways["s"] = ways["w"]  # it is carried
+    if (ways["s"] is None) != (ways["w"] is None):
+        return None
+    if not strong.is_at_hand:
+        if not (strong.is_space and weak.is_space):
+            return None
+        weak = Place(offset=times(plus(strong.offset, weak.offset), 0.5))
+    way = times(plus(ways["s"] or ZERO, ways["w"] or ZERO), 0.5)
+    return weak if is_close(way, ZERO) else Place(weak.sites, plus(weak.offset, way))
+
+
+def _way(start: Place | None, end: Place | None) -> Vector | None:
+    """Return how far a hand moved from one place to another; None if it did not."""
+    return None if start is None or end is None else end.way_from(start)
 
 
 def _moments(time_s: float, hands: Hands, sides: Sides) -> Phrase:

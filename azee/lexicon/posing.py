@@ -121,15 +121,18 @@ class Posing:
     def _beside_each_other(self, where: Constellation, hands: Hands) -> Hands:
         strong, weak = hands["s"], hands["w"]
         middle = body_place(where.place or OnBody("chest"))
-        stays = where.place is None and weak.place is not None
+        stays = False
+        if where.place is None and weak.place is not None:
+            if self.symmetry is None:
+                stays = True
+            else:
+                middle = weak.place  # they meet where they met before
         if where.weak is None or where.strong is None:
             return self._facing(where, hands, middle)
         on_weak = self._sites(where.weak, "w", weak)
         on_strong = self._sites(where.strong, "s", strong)
         if not stays:
             weak = weak.put(on_weak[0], middle)
-        elif self.symmetry is not None and weak.place is not None:
-            weak = weak.put(on_weak[0], weak.place)  # they meet where they met before
         touches = where.contact != "close"
         place = Place(on_weak, touches=touches, gap=0.0 if touches else NEAR_M)
         return {"s": strong.put(on_strong[0], place), "w": weak}

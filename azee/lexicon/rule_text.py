@@ -74,7 +74,7 @@ def _performed(manual: Manual, notes: Notes) -> tuple[Phrase, tuple[str, ...]]:
     used = tuple(n for n in ("s", "w") if n in sides or hands[n] != Hand())
     hands = located(hands, used)
     start = hands
-    mover = Mover(manual.symmetry, notes)
+    mover = Mover(manual.symmetry, notes, where=manual.posture.location)
     phrase, hands = mover.in_turn(manual.moves, hands, sides)
     used = tuple(n for n in ("s", "w") if n in used or hands[n] != Hand())
     ends = [

@@ -214,3 +214,81 @@ def test_a_long_way_with_steps_on_it_is_its_steps() -> None:
         "</par_motion></sign_manual>"
     )
     assert text.count("transpath @PA(s) straight") == 2
+
+
+def _ends(inner: str, target: str, more: str = 'both_hands="true" lr_symm="true"') -> str:
+    """Return the last posture of a rule that moves, at first as `inner` says, to a target."""
+    moves = f"<tgt_motion>{target}</tgt_motion>"
+    text = _rule(f"<sign_manual {more}>{POINTING_UP}{inner}{moves}</sign_manual>")
+    return text.partition("'P2")[2].partition("'start")[0]
+
+
+TIPS = '<location_hand location="tip" digits="2"/><location_hand location="tip" digits="2"/>'
+AT_SIDES = '<location_bodyarm location="chest" side="right_at"/>'
+
+
+def test_two_hands_that_go_to_each_other_meet_halfway() -> None:
+    text = _ends(
+        AT_SIDES,
+        '<directedmotion direction="l"/>'
+        f'<handconstellation contact="touch">{TIPS}</handconstellation>',
+    )
+    assert "place @I_TIP(s) @I_TIP(w) 'contact" in text
+    assert "place @I_TIP(w) :in-space('side = w, 'up = -.12, 'fwd = .332)" in text
+
+
+def test_two_hands_that_touch_go_on_together() -> None:
+    text = _ends(
+        f'<handconstellation contact="touch">{TIPS}<location_bodyarm location="chest"/>'
+        "</handconstellation>",
+        '<directedmotion direction="o"/>'
+        f'<handconstellation contact="touch">{TIPS}</handconstellation>',
+    )
+    assert "place @I_TIP(w) :in-space('side = w, 'up = -.12, 'fwd = .476)" in text
+
+
+def test_a_weak_hand_that_rests_is_where_the_hands_meet() -> None:
+    text = _ends(
+        AT_SIDES,
+        '<split_motion><directedmotion direction="l"/><nomotion/></split_motion>'
+        f'<handconstellation contact="touch">{TIPS}</handconstellation>',
+    )
+    assert "place @I_TIP(w) :in-space('side = w, 'out = .139" in text
+
+
+def test_a_bare_contact_is_of_the_parts_that_were_near_each_other() -> None:
+    text = _ends(
+        f'<handconstellation contact="close">{TIPS}<location_bodyarm location="head"/>'
+        "</handconstellation>",
+        '<directedmotion direction="l"/><handconstellation contact="touch"/>',
+    )
+    assert "place @I_TIP(s) @I_TIP(w) 'contact" in text
+    assert ":in-space" not in text
+
+
+def test_a_bare_contact_of_one_hand_is_with_the_place_that_it_is_at() -> None:
+    text = _ends(
+        '<location_bodyarm location="chin" contact="close"/>',
+        '<directedmotion direction="i"/><handconstellation contact="touch"/>',
+        more="",
+    )
+    assert "place @PA(s) @CH 'contact" in text
+    assert "(w" not in text
+
+
+def test_a_hand_that_its_palm_leads_comes_back_by_its_palm() -> None:
+    """Else the fingertip would be where it was when the fingers pointed elsewhere."""
+    turning = (
+        '<par_motion><directedmotion direction="{way}"/><tgt_motion><changeposture/>'
+        '<handconfig extfidir="{to}"/></tgt_motion></par_motion>'
+    )
+    text = _rule(
+        f'<sign_manual>{POINTING_UP}<location_bodyarm location="chin" contact="touch">'
+        '<location_hand location="tip" digits="2"/></location_bodyarm>'
+        f"{turning.format(way='o', to='o')}"
+        f'<rpt_motion repetition="fromstart">{turning.format(way="l", to="u")}</rpt_motion>'
+        "</sign_manual>"
+    )
+    assert "@I_TIP(s) :from(" not in text
+    assert text.count("shift @PA(s) :way('out = -.144) 'from") == 2
+    assert text.count("shift @PA(s) :way('out = .144) 'from") == 1

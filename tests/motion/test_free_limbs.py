@@ -75,6 +75,20 @@ def test_an_idle_hand_stays_at_rest_while_the_other_signs() -> None:
     )
 
 
+@pytest.mark.parametrize(
+    "raised", [Morph("shoulder_raise", W, 1.0), Rotate(Bone("clav", W), UP, 0.1)], ids=type
+)
+def test_an_arm_hangs_from_a_shoulder_that_moves(raised: Morph | Rotate) -> None:
+    names = rig().coordinates.names
+    arm = [i for i, n in enumerate(names) if n.startswith(("arm_L", "f_arm_L"))]
+    clavicle = [i for i, n in enumerate(names) if n.startswith("clav_L")]
+    standing = rest_posture(rig(), DEFAULT, Side.RIGHT)
+    animation = played(sync(block("SHRUG", "0", "1", raised)))
+    shrugged = animation.clip.coordinates[frame_at(animation, 0.5)]
+    assert np.abs(shrugged[clavicle] - standing[clavicle]).max() > 0.05
+    assert shrugged[arm] == pytest.approx(standing[arm], abs=0.05)
+
+
 def test_a_hold_keeps_the_hands_and_lets_the_head_go() -> None:
     sign = block("A", "0", ".5", at(TIP, 0, 0, 0), Rotate(Bone("head"), UP, 0.4))
     animation = played(sync(sign, hold("H", ".5", "1.5", "A")))

@@ -96,7 +96,7 @@ class KeyPostureSolver:
         if constrained:
             constrained |= {*CARRIERS}
         free = self._members(constrained) & ~mask
-        reference = np.where(free, self.coordinates.idle, current)
+        reference = np.where(free, self._drawn_to(tasks), current)
         start = np.where(self._members(self._lasting(time, tasks) - returning), current, reference)
         if self.last is not None and not returning:
             answer = solve_incrementally(
@@ -199,6 +199,18 @@ class KeyPostureSolver:
             return frozenset()
         since = self.last.time
         return limbs_moved(t for t in tasks if t.interval.start <= since < time)
+
+    def _drawn_to(self, tasks: Iterable[TimedTask]) -> Array:
+        """Return what constraints leave open is drawn to, (V,).
+
+        Neutral; rest in arms of which only the clavicle is moved: a raised shoulder lifts no hand.
+        """
+        moved = frozenset[int]().union(*(t.moves for t in tasks))
+        names = self.coordinates.names
+        beyond = (v for v in moved if not names[v].startswith("clav_"))
+        posed = self.limbs.touching(beyond)
+        idle = frozenset(n for n in self.limbs.touching(moved) - posed if n.startswith("arm_"))
+        return np.where(self._members(idle), self.neutral.posture, self.coordinates.idle)
 
     def _members(self, limbs: frozenset[str]) -> NDArray[np.bool_]:
         """Return which coordinates belong to some limbs, (V,)."""

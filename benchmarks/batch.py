@@ -3,7 +3,8 @@
 The same texts are compiled by one worker and by two, in turns, each after warm-up tasks that load
 language, body and solver. The ratio of their rates shows what is lost to the batch itself; it
 means something on a quiet machine with two processors only. Then one worker does `--count`
-different texts, and its resident memory (Linux) is read after some of them.
+different texts, and its resident memory (Linux) is read after some of them: in the first half what
+a process remembers fills, and the allocator keeps what is free.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from benchmarks.memory import STATM, WARM, different
 
 LEAST_RATIO = 1.8
 MOST_GROWTH_MB = 10.0
+"""In the second half of the texts."""
 TURNS = 3
 SIMILAR = 200
 """After so many texts their places come again, with another time."""
@@ -66,7 +68,7 @@ def processor_s(process: int) -> float:
 
 def growth(count: int, out: Path) -> Iterator[tuple[int, float]]:
     """Do many texts by one worker; yield how many are done, and its memory, MB."""
-    marks = {WARM, *(round(count * part / 5) for part in range(1, 6))}
+    marks = {WARM, *(round(count * part / 10) for part in range(1, 11))}
     with LocalWorkers(1, out) as workers:
         for number, (_, record) in enumerate(workers.do(tasks(0, count)), 1):
             _require_sound(record)
@@ -123,6 +125,7 @@ def main(arguments: Sequence[str] = ()) -> None:
         found = dict(growth(chosen.count, Path(name) / "memory"))
         for number, mb in found.items():
             print(f"  after {number:>6,} texts {mb:8.1f} MB", flush=True)
-        grown = found[chosen.count] - found[min(found)]
+        second = [mb for number, mb in found.items() if number >= chosen.count / 2]
+        grown = max(second) - second[0]
         kept = "kept" if grown <= MOST_GROWTH_MB else "missed"
-        print(f"  growth {grown:19.1f} MB     goal: at most {MOST_GROWTH_MB:.0f}, {kept}")
+        print(f"  growth in the second half {grown:.1f} MB; goal {MOST_GROWTH_MB:.0f}, {kept}")

@@ -39,6 +39,7 @@ GIVES_UP = (
     RuntimeError,
     ValueError,
     nlopt.RoundoffLimited,
+    nlopt.ForcedStop,
     getattr(nlopt, "exception", RuntimeError),
 )
 """What NLopt raises when a descent ends early. Newer wheels have exceptions of their own, whose
@@ -78,6 +79,7 @@ def minimise(
         optimiser = nlopt.opt(algorithm, len(first))
         optimiser.set_lower_bounds(lower)
         optimiser.set_upper_bounds(upper)
+        best.stop = optimiser.force_stop
         optimiser.set_min_objective(best)
         optimiser.set_ftol_rel(tolerance)
         optimiser.set_maxeval(max_evaluations)
@@ -87,25 +89,19 @@ def minimise(
             gave_up = False
         except GIVES_UP:
             if best.failure is not None:
-                raise _origin(best.failure) from None
+                raise best.failure from None
             gave_up = best.value >= origin
         if not gave_up:
             break
     return Minimum(np.clip(best.x, lower, upper), best.value)
 
 
-def _origin(failure: BaseException) -> BaseException:
-    """Return what came first in a chain of exceptions."""
-    while (before := failure.__cause__ or failure.__context__) is not None:
-        failure = before
-    return failure
-
-
 class _Best:
     """The objective, remembering the lowest point it was asked for, and what it raised.
 
-    After an exception, such as that of Ctrl-C, NLopt goes on for some evaluations and then raises
-    one of its own, as if the descent had just ended early.
+    An exception, such as that of Ctrl-C, ends the descent by `stop`. It is not raised into NLopt,
+    whose interface goes on for some evaluations with the exception pending: whatever runs
+    meanwhile, a look for garbage too, fails then. One that comes outside `_evaluated` still is.
     """
 
     def __init__(self, objective: Callable[[Array, Array], float], first: Array) -> None:
@@ -113,16 +109,18 @@ class _Best:
         self.x = first.copy()
         self.value = math.inf
         self.failure: BaseException | None = None
-        self.value = self(first, np.empty(len(first)))
+        self.stop: Callable[[], None] = lambda: None
+        self.value = self._evaluated(first, np.empty(len(first)))
 
     def __call__(self, x: Array, gradient: Array) -> float:
-        if self.failure is not None:
-            raise self.failure
-        try:
-            return self._evaluated(x, gradient)
-        except BaseException as failure:
-            self.failure = failure
-            raise
+        if self.failure is None:
+            try:
+                return self._evaluated(x, gradient)
+            except BaseException as failure:
+                self.failure = failure
+        self.stop()
+        gradient[:] = 0.0
+        return UNDEFINED
 
     def _evaluated(self, x: Array, gradient: Array) -> float:
         value = self.objective(x, gradient)

@@ -73,7 +73,7 @@ def test_an_error_in_the_objective_is_not_swallowed() -> None:
 
 @pytest.mark.parametrize("last", range(1, 12))
 def test_an_interruption_ends_the_descent_whenever_it_comes(last: int) -> None:
-    """NLopt asks on after the callback raised, and what it asks with fails in its own way."""
+    """NLopt is not asked on, which fails in its own way."""
     calls = 0
 
     def interrupted(x: Array, gradient: Array) -> float:

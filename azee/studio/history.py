@@ -57,9 +57,13 @@ class History:
         self._lock = threading.Lock()
         try:
             self._database = sqlite3.connect(path, timeout=10, check_same_thread=False)
-            self._database.execute("PRAGMA journal_mode = WAL")
-            self._database.execute("PRAGMA synchronous = NORMAL")
-            self._database.executescript(_TABLES)
+            try:
+                self._database.execute("PRAGMA journal_mode = WAL")
+                self._database.execute("PRAGMA synchronous = NORMAL")
+                self._database.executescript(_TABLES)
+            except BaseException:
+                self._database.close()
+                raise
         except sqlite3.Error as error:
             raise OSError(None, str(error), str(path)) from error
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -23,8 +25,13 @@ for i in range(10_000):
 """
 
 
-def test_a_draft_is_there_until_it_is_saved_or_dropped(tmp_path: Path) -> None:
-    kept = History(tmp_path / "new" / "kept.sqlite")
+@pytest.fixture
+def kept(tmp_path: Path) -> Iterator[History]:
+    with closing(History(tmp_path / "new" / "kept.sqlite")) as history_of_a_folder:
+        yield history_of_a_folder
+
+
+def test_a_draft_is_there_until_it_is_saved_or_dropped(kept: History) -> None:
     kept.keep("a.azee", "one", "d", 1.0)
     kept.keep("a.azee", "two", None, 2.0)
     kept.keep("b.azee", "other", None, 2.0)
@@ -38,24 +45,22 @@ def test_a_draft_is_there_until_it_is_saved_or_dropped(tmp_path: Path) -> None:
 
 
 def test_versions_are_what_was_saved_and_what_was_typed_once_a_minute(tmp_path: Path) -> None:
-    kept = History(tmp_path / "kept.sqlite")
-    for second in range(2 * EVERY_S + 1):
-        kept.keep("a.azee", f"text {second}", None, float(second))
-    kept.saved("a.azee", "saved", 200.0)
-    kept.close()
-    again = History(tmp_path / "kept.sqlite")
-    found = again.versions("a.azee")
-    assert [(v.at, v.saved) for v in found] == [
-        (200.0, True), (2.0 * EVERY_S, False), (float(EVERY_S), False), (0.0, False)
-    ]  # fmt: skip
-    assert again.version("a.azee", found[1].number) == f"text {2 * EVERY_S}"
-    assert again.version("b.azee", found[1].number) is None
-    assert again.version("a.azee", 10**15) is None
+    with closing(History(tmp_path / "kept.sqlite")) as kept:
+        for second in range(2 * EVERY_S + 1):
+            kept.keep("a.azee", f"text {second}", None, float(second))
+        kept.saved("a.azee", "saved", 200.0)
+    with closing(History(tmp_path / "kept.sqlite")) as again:
+        found = again.versions("a.azee")
+        assert [(v.at, v.saved) for v in found] == [
+            (200.0, True), (2.0 * EVERY_S, False), (float(EVERY_S), False), (0.0, False)
+        ]  # fmt: skip
+        assert again.version("a.azee", found[1].number) == f"text {2 * EVERY_S}"
+        assert again.version("b.azee", found[1].number) is None
+        assert again.version("a.azee", 10**15) is None
 
 
-def test_old_versions_go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_old_versions_go(kept: History, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(history, "MOST_VERSIONS", 3)
-    kept = History(tmp_path / "kept.sqlite")
     for i in range(6):
         kept.saved("a.azee", f"{i}", float(i))
         kept.saved("b.azee", f"{i}", float(i))
@@ -73,7 +78,8 @@ def test_what_was_acknowledged_survives_kill_9(tmp_path: Path) -> None:
             writer.stdout.readline()
         writer.send_signal(signal.SIGKILL)
         told = writer.stdout.read().split()
-    draft = History(path).draft("a.azee")
+    with closing(History(path)) as kept:
+        draft = kept.draft("a.azee")
     assert draft is not None
     assert int(draft.text.split()[1]) >= int(told[-1] if told else 49)
 

@@ -6,9 +6,9 @@
 
 (docs/solver.md names the terms). f has many local minima, so there are descents from many starts:
 
-1. descend from each start in turn until one end meets everything or no more is gained (`search`);
-2. if only the body is in the way, descend around it and through it (`around_the_body`);
-3. from the best end descend until nothing is gained (`finished`);
+1. minimise from each start in turn until one end meets everything or no more is gained (`search`);
+2. if only the body is in the way, minimise around it and through it (`around_the_body`);
+3. from the best end minimise until nothing is gained (`finished`);
 4. if a place is far out of reach, try nearly straight arms as well (`nearest`).
 """
 
@@ -209,7 +209,7 @@ class GroupSearch:
         )
 
     def finished(self, result: Result) -> Result:
-        """Descend from a result until nothing is gained, so that near targets end in near postures.
+        """Minimise from a result until nothing is gained; near targets end in near postures so.
 
         Where a task is missed, Gauss-Newton steps are short: there NLopt goes on first.
         """
@@ -269,9 +269,9 @@ class GroupSearch:
             return stiff_descent(self.program, through, self.body.options)
 
     def _near_miss_refined(self, result: Result) -> Result:
-        """Descend once more with little posture cost, if a small miss may come from that.
+        """Minimise once more with little posture cost, if a small miss may come from that.
 
-        If the body is in the way too, descend without the margin around it, which is a wish.
+        If the body is in the way too, minimise without the margin around it, which is a wish.
         """
         if not 1.0 < result.worst() < NEAR_MISS:
             return result

@@ -27,6 +27,9 @@ TOUCHING_M, APART_M, BESIDE_M = 0.01, 0.035, 0.024
 """Sites that touch; tips of fingers that are spread; tips of fingers that lie side by side."""
 TOWARDS = 0.55
 """Cosine of the angle within which something points somewhere."""
+ELBOW_M = 0.05
+"""How far elbows of arms that spell are below their shoulders at least. In 29 recorded Turkish
+letters they are lower by a third of the width of the shoulders and more."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,8 @@ class Hand:
     fingers: str
     palm: str = ""
     points: str = ""
+    down: str = ""
+    """Fingers that point down, by their initials."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +103,7 @@ CROSS = (("I_INT_R_2", "I_BACK_L_2"),)
 OVER = (("I_INT_R_2", "I_INT_L_2"),)
 ON_C = Shown(weak=Hand("rccc", "in", "up"), free={("T_TIP_L", "I_TIP_L"): 0.025})
 TID: Mapping[str, Shown] = {
-    "A": Shown(Hand("sccc", "back", "in"), Hand("sscc", "back", "down"), CROSS, spread=("IM",),
+    "A": Shown(Hand("sccc", "back", "in"), Hand("bbcc", "back", "in", "IM"), CROSS, spread=("IM",),
                before=OVER),
     "B": Shown(Hand("rccc"), Hand("rccc"), (("T_PAD_R", "I_PAD_R"), ("T_PAD_L", "I_PAD_L"),
                ("I_KN_R_3", "I_KN_L_3"))),
@@ -107,25 +112,25 @@ TID: Mapping[str, Shown] = {
     "D": Shown(Hand("rccc", "in", "up"), Hand("sccc", "in", "up"),
                (("I_PAD_R", "I_PAD_L"), ("T_PAD_R", "I_INT_L_1"))),
     "E": Shown(Hand("sssc", "back", "in"), Hand("sccc", "in", "up"), (("M_TIP_R", "I_INT_L_2"),)),
-    "F": Shown(Hand("sccc", "back", "in"), Hand("sccc", "back", "down"), CROSS,
+    "F": Shown(Hand("sccc", "back", "in"), Hand("bccc", "back", "in", "I"), CROSS,
                {("T_TIP_L", "I_KNt_L_1"): 0.06}, before=OVER),
     "G": Shown(Hand("cccc", "back", "in"), Hand("cccc", "back", "in"), (("L_l_R_2", "I_t_L_2"),)),
     "Ğ": Shown(Hand("cccc", "back", "in"), Hand("cccc", "back", "in"), (("L_l_R_2", "I_t_L_2"),)),
-    "H": Shown(Hand("sccc", "back", "in"), Hand("sccs", "back", "down"), CROSS, before=OVER),
+    "H": Shown(Hand("sccc", "back", "in"), Hand("bccb", "back", "in", "IL"), CROSS, before=OVER),
     "I": Shown(weak=Hand("sccc", "back", "up")),
     "İ": Shown(weak=Hand("sccc", "back", "up")),
     "J": Shown(Hand("sccc"), Hand("sccc", "back", "up")),
-    "K": Shown(Hand("sscc", "back", "in"), Hand("sscc", "back", "down"),
+    "K": Shown(Hand("sscc", "back", "in"), Hand("bbcc", "back", "in", "IM"),
                (("I_PAD_R", "I_BACK_L_2"),), before=(("I_PAD_R", "I_INT_L_2"),)),
     "L": Shown(weak=Hand("sccc", "forward", "up"), free={("T_TIP_L", "I_KNt_L_1"): 0.06}),
-    "M": Shown(Hand("sscc", "back", "down"), Hand("sscc", "back", "down"),
+    "M": Shown(Hand("sscc", "back", "down", "IM"), Hand("sscc", "back", "down", "IM"),
                (("I_TIP_R", "I_TIP_L"),), {("M_TIP_R", "M_TIP_L"): 0.04}),
-    "N": Shown(Hand("sccc", "back", "down"), Hand("sscc", "back", "down"),
+    "N": Shown(Hand("sccc", "back", "down", "I"), Hand("sscc", "back", "down", "IM"),
                (("I_TIP_R", "I_TIP_L"),)),
     "O": Shown(weak=Hand("rsss", "in", "up"), touches=(("T_PAD_L", "I_PAD_L"),)),
     "Ö": Shown(weak=Hand("rsss", "in", "up"), touches=(("T_PAD_L", "I_PAD_L"),)),
-    "P": Shown(weak=Hand("rscc", "back", "down"), touches=(("T_PAD_L", "I_PAD_L"),)),
-    "R": Shown(Hand("sccc", "back", "in"), Hand("rscc", "back", "down"),
+    "P": Shown(weak=Hand("rbcc", "down", "in", "M"), touches=(("T_PAD_L", "I_PAD_L"),)),
+    "R": Shown(Hand("sccc", "back", "in"), Hand("rbcc", "down", "in", "M"),
                (("T_PAD_L", "I_PAD_L"), ("I_TIP_R", "I_KN_L_2"))),
     "S": Shown(Hand("rccc", "in", "up"), Hand("rccc", "in", "up"), (("T_TIP_R", "I_PAD_L"),),
                {("I_TIP_R", "I_TIP_L"): 0.03}),
@@ -174,6 +179,19 @@ class Seen:
             return "r"
         return "h" if knuckle < 45 else "c"
 
+    def lowered(self, finger: str, side: str) -> float:
+        """Cosine of the angle between a finger, an initial, and what is below the signer."""
+        way = self.site(f"{finger}_TIP_{side}") - self.site(f"{finger}_KN_{side}_1")
+        return float(-way[1] / np.linalg.norm(way))
+
+    def elbow_below_m(self, side: str) -> float:
+        """How far an elbow is below its shoulder, metres."""
+        shoulder, elbow = (
+            self.frames.positions[self.rig.bones[f"{bone}_{side}"].node]
+            for bone in ("arm", "f_arm")
+        )
+        return float(shoulder[1] - elbow[1])
+
     def turned(self, side: str, column: int, towards: str) -> float:
         """Cosine of the angle between an axis of a palm, and a direction of its signer."""
         axis = self.frames.rotations[self.rig.bones[f"palm_{side}"].node][:, column].copy()
@@ -201,6 +219,11 @@ def faults(seen: Seen, shown: Shown) -> list[str]:
         for name, column, towards in (("points", 1, hand.points), ("palm", 2, hand.palm)):
             if towards and seen.turned(side, column, towards) < TOWARDS:
                 out.append(f"{name} {side}: {seen.turned(side, column, towards):.2f} {towards}")
+        for finger in hand.down:
+            if seen.lowered(finger, side) < TOWARDS:
+                out.append(f"{finger} {side}: {seen.lowered(finger, side):.2f} down")
+        if seen.elbow_below_m(side) < ELBOW_M:
+            out.append(f"elbow {side}: {seen.elbow_below_m(side):.3f}")
     side = "R" if shown.weak is None else "L"
     tips = [(pair, *(f"{f}_TIP_{side}" for f in pair)) for pair in (*shown.beside, *shown.spread)]
     out += [f"{a} {b}: {seen.apart(a, b):.3f}" for a, b in shown.touches

@@ -16,6 +16,7 @@ from small_rig import SMALL, SmallRig, tumbling
 
 from azee.clip.clip import Clip
 from azee.export.formats.glb import write_glb
+from azee.export.formats.gltf.document import Document
 from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Rig
 from azee_rig.skeleton import Skeleton
@@ -117,6 +118,30 @@ def test_bounds_are_told_where_readers_look_for_them(small: GlbArrays) -> None:
     others = [a for n, a in enumerate(small.document["accessors"]) if n not in bounded]
     assert others
     assert not any("min" in accessor or "max" in accessor for accessor in others)
+
+
+@pytest.mark.parametrize(
+    ("rows", "least", "largest"),
+    [([0, 1], [1, 2, -4], [3, 5, -1]), ([0, 2], [0, 0, -4], [3, 5, 0])],
+)
+def test_bounds_count_the_zeros_of_rows_that_are_not_written(
+    rows: list[int], least: list[float], largest: list[float]
+) -> None:
+    document = Document("test")
+    values = np.array([[1, 5, -4], [3, 2, -1]], np.float32)
+    document.sparse_accessor(rows[-1] + 1, np.array(rows), values, bounds=True)
+    (accessor,) = document.objects["accessors"]
+    assert (accessor["min"], accessor["max"]) == (least, largest)
+
+
+def test_every_view_begins_at_a_multiple_of_four_bytes() -> None:
+    document = Document("test")
+    for count in (1, 2, 3, 4, 5, 1):
+        document.accessor(np.ones(count, np.uint8))
+    views = document.objects["bufferViews"]
+    assert [view["byteLength"] for view in views] == [1, 2, 3, 4, 5, 1]
+    assert [view["byteOffset"] for view in views] == [0, 4, 8, 12, 16, 24]
+    assert len(document.buffer) == 28
 
 
 def test_every_vertex_hangs_on_its_joints(small: GlbArrays) -> None:

@@ -197,6 +197,12 @@ def test_one_file_has_one_meaning_of_positions(
     assert read.notes[-1].startswith("lengths are taken for cm: the figure is 1.")
 
 
+def test_a_tip_belongs_to_the_joint_that_its_end_site_stands_in() -> None:
+    read = parse_bvh(six_channel_figure("0 94 0", "0 94 0", "0 25 0"), "cm")
+    tips = {read.skeleton.names[joint]: tip.tolist() for joint, tip in read.tips.items()}
+    assert tips == {"LeftLeg": pytest.approx([0, -0.9, 0]), "Head": pytest.approx([0, 0.2, 0])}
+
+
 @pytest.mark.parametrize(
     ("hips", "added"), [("-1 93 -9", False), ("0 0 0", True), ("3 9 -20", True)]
 )
@@ -332,6 +338,7 @@ def test_the_figure_of_the_thesis_is_read_as_it_is_printed() -> None:
         (["1 2 3", "4 5 6", "7"], [[1, 2, 3], [4, 5, 6]], ["the last frame has 1 of 3"]),
         (["1 2", "3 4", "5 6"], [[1, 2, 3], [4, 5, 6]], []),
         (["1 2 3 4 5 6", "7 8 9"], [[1, 2, 3], [4, 5, 6], [7, 8, 9]], []),
+        (["1 2 3", "4", "5 6", "7 8", "9"], [[1, 2, 3], [4, 5, 6], [7, 8, 9]], []),
         (
             ["9", "1 2 3", "", "4 5", "4 5 6", "7 8 9", "0 0 0"],
             [[9, 2, 3], [1, 2, 3], [4, 5, 3], [4, 5, 6], [7, 8, 9], [0, 0, 0]],

@@ -75,6 +75,31 @@ def test_a_target_is_known_by_the_end_of_its_name(name: str) -> None:
     assert list(face.lids) == [name]
 
 
+@pytest.mark.parametrize(
+    ("name", "side"),
+    [
+        ("eyeBlink_L", "left"),
+        ("EyeBlinkLeft", "left"),
+        ("Blink-l", "left"),
+        ("eyeBlink_R", "right"),
+        ("EyeBlinkRight", "right"),
+        ("Blink.r", "right"),
+    ],
+)
+def test_a_letter_at_the_end_of_a_name_is_its_side(name: str, side: str) -> None:
+    lids = {"eyeBlinkLeft": ("left", 1.0), "eyeBlinkRight": ("right", 1.0)}
+    assert map_face([name], {}, DATA, TABLE, lids).lids == {name: (side, 1.0)}
+
+
+@pytest.mark.parametrize(
+    ("word", "unit", "known"), [("tongue", "tongueOut", True), ("kiss", "mouthPucker", False)]
+)
+def test_the_end_of_a_name_counts_from_six_letters_on(word: str, unit: str, known: bool) -> None:
+    lids = {unit: ("a", 1.0)}
+    assert list(map_face([word], {}, DATA, TABLE, lids).lids) == [word]
+    assert bool(map_face([f"Anna_{word}"], {}, DATA, TABLE, lids).lids) == known
+
+
 def test_a_unit_that_a_face_lacks_borrows_of_a_near_one_that_is_not_asked_for_itself() -> None:
     near, lacking = "browInnerUp", "mh_eyebrows-left-inner-up"
     table = {

@@ -235,3 +235,28 @@ def test_an_arm_without_that_name_begins_at_the_joint_called_shoulder(body: Body
     assert found.bones["arm_L"] == ("LeftShoulder", "LeftBlob")
     assert found.bones["f_arm_L"] == ("LeftForeArm",)
     assert "clav_L" not in found.bones
+
+
+@pytest.mark.parametrize(
+    ("name", "above"), [("LeftHandTwist", "LeftArm"), ("LeftHand_end", "LeftArm"),
+    ("HeadTwist", "Spine2"), ("HeadTop_End", "Spine2")],
+)  # fmt: skip
+def test_twists_and_ends_nearer_to_the_trunk_are_no_hand_and_no_head(
+    body: Body, name: str, above: str
+) -> None:
+    found = _with(body, (name, above))
+    assert found.bones["palm_L"] == ("LeftHand",)
+    assert found.bones["head"] == ("Head",)
+
+
+def test_of_two_joints_without_names_before_a_hand_one_is_the_upper_arm(body: Body) -> None:
+    names = {"LeftArm": "LeftBlob", "LeftForeArm": "LeftLump"}
+    kept = [j for j, name in enumerate(body.names) if name != "LeftShoulder"]
+    shoulder = body.names.index("LeftShoulder")
+    above = [body.parents[shoulder] if p == shoulder else p for p in body.parents]
+    parents = np.array([kept.index(above[j]) if above[j] >= 0 else -1 for j in kept])
+    joints = tuple(names.get(body.names[j], body.names[j]) for j in kept)
+    found = propose(Tree(joints, parents, body.places[kept]))
+    assert found.bones["arm_L"] == ("LeftBlob",)
+    assert found.bones["f_arm_L"] == ("LeftLump",)
+    assert "clav_L" not in found.bones

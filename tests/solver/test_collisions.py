@@ -20,7 +20,16 @@ from azee_solver.binding import Binding
 from azee_solver.collisions import Obstacles, segment_distance
 from azee_solver.constraint import Constraint, Place
 from azee_solver.evaluate import evaluator
-from azee_solver.geometry import Between, FreePoint, Side, Site, SitePoint, Vec, VTranslate
+from azee_solver.geometry import (
+    Between,
+    FreePoint,
+    Side,
+    Site,
+    SitePoint,
+    Vec,
+    VTranslate,
+    WorldPoint,
+)
 from azee_solver.penetration import meant_contact, mesh_penetration
 from azee_solver.winding import distances, winding_numbers
 
@@ -238,6 +247,17 @@ def test_two_sites_at_one_place_are_meant_to_touch() -> None:
     assert obstacles().reach[n] - met.reach[n] == pytest.approx(0.02 + 0.001)
     apart = obstacles(Place(Site("PA", S), point, 0.1), Place(Site("PA", W), point))
     assert apart.reach[n] == obstacles().reach[n]
+
+
+def test_skin_that_may_be_touched_at_a_measured_place_counts_as_a_called_contact() -> None:
+    chest = Site("ST")
+    measured = obstacles(Place(Site("PA", S), WorldPoint(0.0, 1.2, 0.2, (chest,))))
+    called, placed = (
+        obstacles(Place(Site("PA", S), SitePoint(chest), contact=contact))
+        for contact in (True, False)
+    )
+    np.testing.assert_array_equal(measured.reach, called.reach)
+    assert (measured.reach < placed.reach).any()
 
 
 def test_a_contact_between_sites_is_one_with_each_of_them() -> None:

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from stick_body import stick_body
 
 from azee_rig.rig import Rig
 from azee_solver.constraint import (
@@ -20,7 +21,7 @@ from azee_solver.constraint import (
     Relation,
     Rotate,
 )
-from azee_solver.geometry import Bone, FreePoint, Side, Site, Vec
+from azee_solver.geometry import Bone, FreePoint, Nrm, Side, Site, Vec
 from azee_solver.solve import solve
 from azee_solver.task import Task
 
@@ -131,3 +132,9 @@ def test_a_joint_at_its_lower_limit_is_told_on_whichever_side_that_is(
     lower[axial], idle[axial] = math.radians(lower_deg), math.radians(lower_deg + 10.0)
     body = replace(signer, coordinates=replace(c, lower=lower, idle=idle))
     assert reasons(body, turn(HEAD, UP, lower_deg - 5.0))[0] == f"the head cannot {told}"
+
+
+def test_a_morph_that_is_missed_conflicts_only_with_what_moves_the_same_joints() -> None:
+    forward = along(BoneAxis.DIR, Bone("index", Side.STRONG, 1), Nrm(Bone("palm", Side.STRONG)))
+    found = reasons(stick_body(), Morph("index_bend", Side.STRONG, 0.0), forward, Look(LEFT))
+    assert found[0] == "conflicts with `orient 'dir !index(s, 1) 'along nrm(!palm(s))`"

@@ -6,25 +6,28 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee_rig.chain import Frames
+from azee_rig.rig import RigSite
 from azee_rig.skeleton import frozen
 from azee_solver.anatomy import Anatomy, Part
 from azee_solver.binding import Binding
 from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Place
-from azee_solver.geometry import Site, SitePoint, WorldPoint, sites_of
+from azee_solver.geometry import Between, Site, SitePoint, WorldPoint, sites_of
 from azee_solver.kinematics import Parting
-from azee_solver.sliding import UPRIGHT
+from azee_solver.sliding import UPRIGHT, skin_between
 
 if TYPE_CHECKING:
     from azee_rig.rig import Rig
 
 Array = NDArray[np.float64]
+Spot: TypeAlias = str | tuple[str, str, float]
+"""A site of the body by name, or the skin between two, so far from the one to the other."""
 
 
 NEAR_M = 0.014
@@ -101,10 +104,7 @@ class Obstacles:
         self, binding: Binding, anatomy: Anatomy, constraints: Sequence[Constraint]
     ) -> None:
         self.rig = binding.rig
-        meant = tuple(
-            (binding.site(one).name, binding.site(other).name, called)
-            for one, other, called in _meant(constraints)
-        )
+        meant = tuple(_meant(binding, constraints))
         self._clearance = _clearance(self.rig, anatomy, meant)
         self.pairs, self.reach = self._clearance.pairs, self._clearance.reach
 
@@ -152,7 +152,7 @@ class _Clearance:
 
 
 @lru_cache(maxsize=64)
-def _clearance(rig: Rig, anatomy: Anatomy, meant: tuple[tuple[str, str, bool], ...]) -> _Clearance:
+def _clearance(rig: Rig, anatomy: Anatomy, meant: tuple[tuple[str, Spot, bool], ...]) -> _Clearance:
     """Work it out once for all moments with the same contacts, as those of a movement."""
     pairs, radii, margin, relative = _pairs(rig, anatomy)
     i, j = pairs.T
@@ -175,41 +175,70 @@ def _changed(clear: _Clearance, free: frozenset[int], unsettled: frozenset[int])
     return Collisions(clear.pairs[chosen], clear.reach[chosen], clear.margin[chosen])
 
 
-def _meant(constraints: Iterable[Constraint]) -> Iterator[tuple[Site, Site, bool]]:
-    """Sites that are meant to touch, and whether the text calls that a contact.
+def _meant(binding: Binding, constraints: Iterable[Constraint]) -> Iterator[tuple[str, Spot, bool]]:
+    """Sites and what they are meant to touch, and whether the text calls that a contact.
 
-    A contact at a point between sites or beside one is a contact with each of them.
+    A contact at a point between sites or beside one is a contact with each of them, and with the
+    skin between.
     """
+
+    def name(site: Site) -> str:
+        return binding.site(site).name
+
     places = [c for c in constraints if isinstance(c, Place)]
     for place in places:
-        if isinstance(place.point, SitePoint):
-            yield place.site, place.point.site, place.contact
-        elif isinstance(place.point, WorldPoint):
-            for site in place.point.touching:
-                yield place.site, site, True
+        own, point = name(place.site), place.point
+        if isinstance(point, SitePoint):
+            yield own, name(point.site), place.contact
+        elif isinstance(point, WorldPoint):
+            for site in point.touching:
+                yield own, name(site), True
         elif place.contact:
-            for site in sorted(sites_of(place.point), key=str):
-                yield place.site, site, True
+            for site in sorted(sites_of(point), key=str):
+                yield own, name(site), True
+            if isinstance(point, Between) and (spot := _between(binding, point)) is not None:
+                yield own, spot, True
     for a, b in combinations(places, 2):
         if a.point == b.point and a.distance_m == b.distance_m == 0.0:
-            yield a.site, b.site, False
+            yield name(a.site), name(b.site), False
 
 
-def _contact(rig: Rig, anatomy: Anatomy, one: str, other: str, *, called: bool) -> Contact:
-    bones = [rig.sites[name].bone for name in (one, other)]
+def _between(binding: Binding, point: Between) -> Spot | None:
+    """Return the point of the skin that is meant between two sites; None if none is."""
+    start, end = point.start, point.end
+    if not (isinstance(start, SitePoint) and isinstance(end, SitePoint)):
+        return None
+    if binding.skin_between(point) is None:
+        return None
+    return binding.site(start.site).name, binding.site(end.site).name, point.fraction
+
+
+def _contact(rig: Rig, anatomy: Anatomy, one: str, other: Spot, *, called: bool) -> Contact:
+    bones = [_site(rig, spot).bone for spot in (one, other)]
     palms = [called and bone.startswith("palm") for bone in bones]
     slack = PALM_SLACK_M if any(palms) else CALLED_SLACK_M if called else SLACK_M
-    at_body = called and any(name.startswith("WR") for name in (one, other))
+    at_body = called and any(str(spot).startswith("WR") for spot in (one, other))
     at_body |= called and any(bone.startswith(BROAD) for bone in bones)
     first, second = (
-        _around(rig, name, anatomy, wide=palm or (at_body and bone.startswith(FINGERS)))
-        for name, bone, palm in zip((one, other), bones, palms, strict=True)
+        _around(rig, spot, anatomy, wide=palm or (at_body and bone.startswith(FINGERS)))
+        for spot, bone, palm in zip((one, other), bones, palms, strict=True)
     )
     return Contact(first, second, slack)
 
 
+def _site(rig: Rig, spot: Spot) -> RigSite:
+    """Return a site of the body, or one made for a point of its skin."""
+    if isinstance(spot, str):
+        return rig.sites[spot]
+    found = skin_between(rig, *spot)
+    assert found is not None, spot
+    node, place = found
+    bone = next(name for name, nodes in rig.bones.items() if nodes.node == node)
+    return RigSite("", bone, node, place, np.zeros(3))
+
+
 @lru_cache(maxsize=256)
-def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> Surroundings:
+def _around(rig: Rig, spot: Spot, anatomy: Anatomy, *, wide: bool) -> Surroundings:
     """Find the capsules that take part in contacts of a site, and how far they stand out there.
 
     Those of the site's own bone, and near ones of its neighbours; a site of a joint, such as an
@@ -218,7 +247,7 @@ def _around(rig: Rig, name: str, anatomy: Anatomy, *, wide: bool) -> Surrounding
     Which are near is told at the zero pose; how far they stand out is the most of that, idle and
     joints bent: a bent elbow is flatter.
     """
-    site, capsules, parents = rig.sites[name], rig.capsules, rig.chain.parents
+    site, capsules, parents = _site(rig, spot), rig.capsules, rig.chain.parents
     if site.node < 0:
         nothing = np.zeros(len(capsules.node))
         return Surroundings(nothing, nothing)

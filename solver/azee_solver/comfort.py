@@ -5,7 +5,8 @@ by more than 5°, or drives a coordinate of trunk, head or arms to its limit, `e
 group again inside narrower limits, and takes the first answer that costs no constraint more than
 the tolerance of Nunnari, Filhol and Heloir 2018 (1 cm, 5°):
 
-1. the trunk within 5° of neutral, all else short of its limits;
+1. the trunk within 5° of neutral, all else short of its limits; where that parts what touches, once
+   more with as much overlap as the exact answer may have;
 2. the same, and orientations are given up: one alone does not lean the trunk;
 3. the trunk leans as little as will do, all else short of its limits, if that spares 5°;
 4. the trunk as it is, all else short of its limits, and what touches goes on touching.
@@ -27,7 +28,7 @@ from azee_solver.anatomy import Part
 from azee_solver.body import Body
 from azee_solver.constraint import Constraint, Orient, Place
 from azee_solver.footprint import part_constrained
-from azee_solver.geometry import Bone, SitePoint
+from azee_solver.geometry import Between, Bone, Point, SitePoint
 from azee_solver.group_search import solve_group
 from azee_solver.groups import Group
 from azee_solver.moment import Moment
@@ -93,11 +94,20 @@ class _ComfortSearch:
     @cached_property
     def body(self) -> Body:
         """The body of the attempts; its limits are those of the last one."""
+        return self._body(STIFF_OVERLAP)
+
+    @cached_property
+    def touching_body(self) -> Body:
+        """The same, but overlap is no dearer than in the exact answer, which touches."""
+        return self._body(1.0)
+
+    def _body(self, overlap: float) -> Body:
+        """Return a body whose overlap costs so many times as much."""
         options = self.moment.options
         stiff = replace(
             options,
             far=False,
-            overlap=STIFF_OVERLAP * options.overlap,
+            overlap=overlap * options.overlap,
             patience=max(options.patience, 1),
         )
         return replace(self.moment.body, options=stiff, evaluations=0)
@@ -122,8 +132,10 @@ class _ComfortSearch:
             found, hard = self._with_trunk()
         if found is None or self._lean(found.q) > max(STILL_RAD, self.price.trunk_rad - STILL_RAD):
             other, more = self._attempt()
+            if other is None and any(_touches(self.tasks[i].constraint) for i in more):
+                other, more = self._attempt(touch=True)
             found, hard = other or found, hard | more
-        self.moment.body.evaluations += self.body.evaluations
+        self.moment.body.evaluations += self.body.evaluations + self.touching_body.evaluations
         if found is None:
             return replace(self.exact, strain=self.price, strained_for=hard)
         strain = self._price(found.q)
@@ -141,6 +153,9 @@ class _ComfortSearch:
         """
         found, hard = self._attempt(0.0)
         if found is not None:
+            if self._has_let_go(found):
+                other, _ = self._attempt(0.0, touch=True)
+                found = other or found
             return found, hard
         orientations = frozenset(
             i for i, t in self.tasks.items() if isinstance(t.constraint, Orient)
@@ -160,18 +175,20 @@ class _ComfortSearch:
         return found, hard
 
     def _attempt(
-        self, lean: float = 1.0, given_up: frozenset[int] = frozenset()
+        self, lean: float = 1.0, given_up: frozenset[int] = frozenset(), *, touch: bool = False
     ) -> tuple[Result | None, frozenset[int]]:
         """Solve the group inside limits; none if that costs too much. Also the tasks that it costs.
 
-        Args: lean: see `_inside`. given_up: tasks that may be missed.
+        Args: lean: see `_inside`. given_up: tasks that may be missed. touch: what touches in the
+            exact answer goes on touching, with as much overlap as may be, not as little as can be.
         """
         exact, options = self.exact, self.moment.options
         factors = {i: GIVEN_UP_PULL / exact.ratios[i] for i in exact.missed() - exact.undefined}
         factors |= {i: GIVEN_UP_PULL / self._slack(i) for i in given_up}
-        self.body.limits = self._inside(lean)
+        body = self.touching_body if touch else self.body
+        body.limits = self._inside(lean)
         found = solve_group(
-            self.body,
+            body,
             self.tasks,
             self.q,
             self.free,
@@ -182,12 +199,13 @@ class _ComfortSearch:
             further=False,
         )
         allowed_m = max(exact.overlap_m, options.overlap_m) + options.tolerance.length_m
+        touch = touch or lean == 1.0
         costs = frozenset(
-            i for i in found.ratios if not found.ratios[i] <= self._allowed(i, lean, given_up)
+            i for i in found.ratios if not found.ratios[i] <= self._allowed(i, given_up, touch)
         )
         return None if costs or found.overlap_m > allowed_m else found, costs
 
-    def _allowed(self, i: int, lean: float, given_up: frozenset[int]) -> float:
+    def _allowed(self, i: int, given_up: frozenset[int], touch: bool) -> float:
         """How far off a task may be, in tolerances."""
         exact, constraint = self.exact.ratios[i], self.tasks[i].constraint
         if i in given_up:
@@ -196,7 +214,14 @@ class _ComfortSearch:
             return MOST_GIVEN_UP_RAD / self.moment.options.tolerance.of(constraint)
         if not exact <= 1.0:
             return exact + excess(self.exact, self.moment.options) + self._slack(i)
-        return 1.0 if _touches(constraint) and lean == 1.0 else self._slack(i)
+        return 1.0 if touch and _touches(constraint) else self._slack(i)
+
+    def _has_let_go(self, found: Result) -> bool:
+        """Whether something no longer touches that does in the exact answer."""
+        return any(
+            _touches(task.constraint) and self.exact.ratios[i] <= 1.0 < found.ratios[i]
+            for i, task in self.tasks.items()
+        )
 
     def _bone(self, i: int) -> Bone | None:
         """Return the bone that an orientation is of."""
@@ -253,9 +278,13 @@ class _ComfortSearch:
 
 
 def _touches(constraint: Constraint) -> bool:
-    """Whether a site of the body is placed on another."""
+    """Whether a site of the body is placed on another, or between two."""
     return (
         isinstance(constraint, Place)
-        and isinstance(constraint.point, SitePoint)
+        and (isinstance(constraint.point, SitePoint) or _is_on_skin(constraint.point))
         and not constraint.distance_m
     )
+
+
+def _is_on_skin(point: Point) -> bool:
+    return isinstance(point, Between) and point.on_skin

@@ -23,6 +23,7 @@ from azee_solver.evaluate import evaluator
 from azee_solver.geometry import (
     Between,
     FreePoint,
+    Point,
     Side,
     Site,
     SitePoint,
@@ -270,6 +271,21 @@ def test_a_contact_between_sites_is_one_with_each_of_them() -> None:
     assert (called.reach < plain.reach).any()
     uncalled = obstacles(Place(Site("PA", S), between, within_m=0.02))
     np.testing.assert_array_equal(uncalled.reach, plain.reach)
+
+
+def test_a_contact_between_sites_is_also_one_with_the_skin_between(signer: Rig) -> None:
+    """The collar is hollow between neck and chest: capsules stand out more than at either."""
+    binding = Binding(signer, Side.RIGHT)
+    neck, chest = (SitePoint(Site(name)) for name in ("NK", "ST"))
+
+    def reach(point: Point) -> Array:
+        place = Place(Site("I_KNt", S, 1), point, contact=True)
+        return Obstacles(binding, anatomy(signer.chain, signer.coordinates), (place,)).reach
+
+    on_skin = reach(Between(neck, chest, 0.5, on_skin=True))
+    each = np.minimum(reach(neck), reach(chest))
+    assert (on_skin <= each).all()
+    assert (on_skin < each - 0.005).any()
 
 
 def test_other_fingers_of_a_hand_lie_on_the_trunk_that_one_touches(signer: Rig) -> None:

@@ -11,7 +11,7 @@ from dataclasses import replace
 from azee.lexicon.hands import Hand
 from azee.lexicon.model import HandShape
 from azee.lexicon.places import Place, Site
-from azee.lexicon.vectors import Vector, plus, times
+from azee.lexicon.vectors import ZERO, Vector, plus, times
 
 SKIN_M = 0.01
 """How far before the body a hand ends."""
@@ -53,14 +53,21 @@ _WRIST_M, _BACK_M = 0.06, 0.03
 """How far from the middle of the palm the wrist and the back of the hand are."""
 
 
-def cleared(hand: Hand) -> Hand:
-    """Return a hand that touches nothing, moved forward until it is before the body."""
+def cleared(hand: Hand, before: Hand | None = None) -> Hand:
+    """Return a hand that touches nothing, moved forward until it is before the body.
+
+    Args: before: the hand before the movement. One that turns on its way is led by its palm.
+    """
     place, fingers, palm = hand.place, hand.pointing, hand.facing
     if place is None or place.touches or fingers is None or palm is None:
         return hand
     where = _where(place)
     if where is None:
         return hand
+    led_m = _led_by_m(hand.site, _reach_m(hand.shape)) * fingers[2]
+    if before is not None and before.pointing not in (None, fingers) and _came_from(before, place):
+        beyond_m = _led_by_m(before.site, _reach_m(before.shape))
+        where, led_m = plus(where, times(before.pointing, -beyond_m)), 0.0
     front_m = _front_m(where)
     if front_m is None:
         return hand
@@ -68,8 +75,13 @@ def cleared(hand: Hand) -> Hand:
     if place.origin is not None and place.origin.touches:
         skin_m = 0.0  # it slides over the skin
     behind_m = max(-reach_m * fingers[2], _WRIST_M * fingers[2], 0.0) + _BACK_M * max(palm[2], 0.0)
-    lacking_m = front_m + skin_m + behind_m - where[2] + _led_by_m(hand.site, reach_m) * fingers[2]
+    lacking_m = front_m + skin_m + behind_m - where[2] + led_m
     return replace(hand, place=_forward(place, lacking_m)) if lacking_m > 0 else hand
+
+
+def _came_from(before: Hand, place: Place) -> bool:
+    """Whether a hand moved on to a place from where it was."""
+    return before.place is not None and place.way_from(before.place) not in (None, ZERO)
 
 
 def _led_by_m(site: Site | None, reach_m: float) -> float:

@@ -151,20 +151,21 @@ class Mover:
         """Perform movements one after the other, with a moment between them."""
         parts, time_s = [], 0.0
         for i, move in enumerate(moves):
+            before = hands
             phrase, hands = self.perform(move, hands, sides, slow)
-            hands = self._before_body(hands, sides)
+            hands = self._outside_body(before, hands, sides)
             parts.append(phrase.at(time_s))
             time_s += phrase.duration_s
             if i < len(moves) - 1:
                 parts.append(_moments(time_s, hands, sides))
         return joined(time_s, parts), hands
 
-    def _before_body(self, hands: Hands, sides: Sides) -> Hands:
+    def _outside_body(self, before: Hands, hands: Hands, sides: Sides) -> Hands:
         """Return hands of which none ends in the body."""
-        before = changed(hands, lambda _, hand: cleared(hand), *sides)
-        if before != hands:
+        outside = changed(hands, lambda name, hand: cleared(hand, before[name]), *sides)
+        if outside != hands:
             self.told("into-the-body", "a movement that would end in the body ends before it")
-        return before
+        return outside
 
     def _together(
         self, pairs: Sequence[tuple[Movement, Sides]], hands: Hands, slow: float
@@ -304,8 +305,9 @@ class Mover:
         parts: list[Phrase] = []
         time_s = 0.0
         for i in range(count):
+            before = hands
             phrase, hands = self.perform(move.move, hands, sides, slow * (_AGAIN if i else 1))
-            hands = self._before_body(hands, sides)
+            hands = self._outside_body(before, hands, sides)
             parts.append(phrase.at(time_s))
             time_s += phrase.duration_s
             last = i == count - 1

@@ -21,6 +21,9 @@ from azee.lexicon.places import Place, Site, apart, body_place, other
 from azee.lexicon.sizes import NEAR_M
 from azee.lexicon.vectors import Vector, cross, dot, plus, times
 
+_BACK: Vector = (0, 0, -1)
+_PAST = 0.3
+"""Cosine of the angle at which a palm looks past something."""
 _SPREAD_M = {"PA": 0.015, "H_BACK": 0.015, "I_KNt": 0.045, "H_EDGE": 0.045, "M_TIP": 0.11}
 """How far each site is from the middle of the hand, of the reference signer."""
 
@@ -69,16 +72,16 @@ class Posing:
             assert strong.place is not None
             site, place = strong.site.mirrored(), strong.place.mirrored()
             if where.own is None:
-                site = usual_site(hand.shape, "w", touches=place.touches)
+                site = _usual_site(hand, "w", place)
             return hand.put(site, place)
         place = body_place(where, name)
         if self.symmetry is not None and not (where.side or where.second_side):
             place = apart(place)
-        return hand.put(self._own(where.own, name, hand, touches=place.touches), place)
+        return hand.put(self._own(where.own, name, hand, place), place)
 
-    def _own(self, part: HandPart | None, name: str, hand: Hand, *, touches: bool) -> Site:
+    def _own(self, part: HandPart | None, name: str, hand: Hand, place: Place) -> Site:
         if part is None:
-            return usual_site(hand.shape, name, touches=touches)
+            return _usual_site(hand, name, place)
         self._tell_digits(part)
         return site_of(part, name, hand.pointing, hand.facing, hand.shape)
 
@@ -99,7 +102,7 @@ class Posing:
             between = site_of(part, other(name), base.pointing, base.facing, base.shape)
             sites = (first, between) if between != first else sites
         touches = where.contact != "close"
-        own = self._own(where.own, name, hands[name], touches=True)
+        own = self._own(where.own, name, hands[name], Place(sites, touches=True))
         place = Place(sites, touches=touches, gap=0.0 if touches else NEAR_M)
         if base.place is None:
             hands = {**hands, other(name): _somewhere(base, other(name))}
@@ -112,7 +115,7 @@ class Posing:
                 hands = self._on_hand(where, hands, name)
             elif where is not None:
                 place = body_place(where, name)
-                own = self._own(where.own, name, hands[name], touches=place.touches)
+                own = self._own(where.own, name, hands[name], place)
                 hands = {**hands, name: hands[name].put(own, place)}
         return hands
 
@@ -150,7 +153,7 @@ class Posing:
 
         They meet with the sites that look at each other.
         """
-        sites = {name: _facing_site(hand, name) for name, hand in hands.items()}
+        sites = {name: _facing_site(hand, name, _inward(name)) for name, hand in hands.items()}
         if where.contact == "touch":
             weak = hands["w"].put(sites["w"], middle)
             return {"s": hands["s"].put(sites["s"], Place((sites["w"],), touches=True)), "w": weak}
@@ -163,12 +166,29 @@ class Posing:
         return out
 
 
-def _facing_site(hand: Hand, name: str) -> Site:
-    """Return the site of a hand that looks most at the other hand."""
+def _inward(name: str) -> Vector:
+    """Return where the other hand is."""
+    return (1, 0, 0) if name == "s" else (-1, 0, 0)
+
+
+def _usual_site(hand: Hand, name: str, place: Place) -> Site:
+    """Return the site that is at the body where no part of the hand is said.
+
+    A palm that looks past what it touches cannot touch it: the side of the hand does that is there.
+    """
+    usual, palm = usual_site(hand.shape, name, touches=place.touches), hand.facing
+    if not place.touches or place.is_at_hand or usual.name != "PA" or palm is None:
+        return usual
+    at_side = any(site.hand is not None for site in place.sites)
+    looks = max(dot(palm, _BACK), dot(palm, _inward(name)) if at_side else -1)
+    return usual if looks > _PAST else _facing_site(hand, name, _BACK)
+
+
+def _facing_site(hand: Hand, name: str, towards: Vector) -> Site:
+    """Return the site of a hand that looks most in a direction."""
     fingers, palm = hand.pointing, hand.facing
     if fingers is None or palm is None:
         return Site("PA", name)
-    inward: Vector = (1, 0, 0) if name == "s" else (-1, 0, 0)
     thumb = times(cross(fingers, palm), 1 if name == "s" else -1)
     looks: dict[Site, Vector] = {
         Site("PA", name): palm,
@@ -177,7 +197,7 @@ def _facing_site(hand: Hand, name: str) -> Site:
         Site("H_BACK", name): times(palm, -1),
         Site("H_EDGE", name): times(thumb, -1),
     }
-    return max(looks, key=lambda site: dot(looks[site], inward))
+    return max(looks, key=lambda site: dot(looks[site], towards))
 
 
 def _somewhere(hand: Hand, name: str) -> Hand:

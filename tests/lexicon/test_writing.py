@@ -90,6 +90,16 @@ def test_a_hand_that_moves_into_the_body_stays_before_it(
     assert way == pytest.approx((0.0, 0.0, least - 0.4))
 
 
+def test_a_hand_that_turns_is_kept_before_the_body_where_its_palm_is() -> None:
+    """The fingertip is at the belly, the palm beside the body: it may go back past the flank."""
+    tip, form = Site("I_TIP", "s"), HandShape(Form("finger2"))
+    at_belly = Place((Site("AB", "s"),), touches=True)
+    before = Hand(form, Heading("l"), Heading("u"), tip, at_belly)
+    turned = Hand(form, Heading("ol"), Heading("u"), tip, at_belly.moved((0.0, 0.0, -0.23)))
+    assert cleared(turned, before) == turned
+    assert cleared(turned) != turned
+
+
 def test_a_movement_that_is_cut_short_is_told() -> None:
     inward = '<directedmotion direction="i" size="big"/>'
     place = '<location_bodyarm location="chest" contact="close"/>'
@@ -272,8 +282,26 @@ def test_a_bare_contact_of_one_hand_is_with_the_place_that_it_is_at() -> None:
         '<directedmotion direction="i"/><handconstellation contact="touch"/>',
         more="",
     )
-    assert "place @PA(s) @CH 'contact" in text
+    assert "place @I_KNt(s, 1) @CH 'contact" in text
     assert "(w" not in text
+
+
+@pytest.mark.parametrize(
+    ("palm", "site"), [("l", "@PA(s)"), ("d", "@I_KNt(s, 1)"), ("r", "@H_BACK(s)")]
+)
+def test_the_side_of_a_hand_touches_that_looks_at_the_body(palm: str, site: str) -> None:
+    """Fingers point to the left: the palm looks back, down or forward."""
+    config = f'<handconfig handshape="flat"/><handconfig extfidir="l" palmor="{palm}"/>'
+    place = '<location_bodyarm location="chest" contact="touch"/>'
+    assert f"place {site} midpoint(@ST, @ABST)" in _rule(
+        f"<sign_manual>{config}{place}</sign_manual>"
+    )
+
+
+def test_a_palm_at_the_side_of_the_head_looks_inwards() -> None:
+    config = '<handconfig handshape="flat"/><handconfig extfidir="u" palmor="l"/>'
+    place = '<location_bodyarm location="cheek" side="right_at" contact="touch"/>'
+    assert "place @PA(s) @CK(s)" in _rule(f"<sign_manual>{config}{place}</sign_manual>")
 
 
 def test_a_hand_that_its_palm_leads_comes_back_by_its_palm() -> None:

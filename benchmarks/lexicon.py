@@ -26,7 +26,7 @@ from azee.lexicon.reading import read_bytes
 from azee.lexicon.rule_text import rule_text
 from azee.lexicon.sample import sample_of
 from azee_grammar.diagnostic import AZeeError
-from azee_rig.chain import DIR, NRM, Frames
+from azee_rig.chain import DIR, NRM
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 from azee_solver.outcome import Outcome
@@ -160,7 +160,8 @@ def _compare(
 ) -> None:
     clip, rig = done.clip, done.rig
     frame = int(np.abs(clip.times - (time_s + done.report.lead_s)).argmin())
-    frames = rig.chain.frames(clip.coordinates[frame])
+    q = clip.coordinates[frame]
+    frames = rig.chain.frames(q)
     for hand, expected in said.hands.items():
         side = said.sides[hand]
         node = rig.bones[f"palm_{side}"].node
@@ -173,12 +174,13 @@ def _compare(
                 angle = np.degrees(np.arccos(np.clip(turned[:, column] @ vector, -1, 1)))
                 figures.add(f"{what} at the {when}, degrees", float(angle), name)
         if when == "start":
-            _compare_place(rig, frames, expected, side, name, figures)
+            _compare_place(rig, q, expected, side, name, figures)
 
 
 def _compare_place(
-    rig: Rig, frames: Frames, expected: SaidHand, side: str, name: str, figures: Figures
+    rig: Rig, q: Array, expected: SaidHand, side: str, name: str, figures: Figures
 ) -> None:
+    frames = rig.chain.frames(q)
     if expected.place is not None:
         palm = rig.sites[f"PA_{side}"].point(frames)
         meant = expected.place * rig.landmarks.arm_m + rig.landmarks.shoulder_middle
@@ -194,7 +196,7 @@ def _compare_place(
         nearest = min(np.linalg.norm(a - b) for a in own for b in touched)
         figures.add("touch at the start, m", float(nearest), name)
     if expected.touch is not None:
-        gap = gap_m(rig, frames, expected.touch, side)
+        gap = gap_m(rig, q, expected.touch, side)
         figures.add("gap of touching skins, m", gap, name)
 
 

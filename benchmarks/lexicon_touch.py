@@ -1,7 +1,8 @@
 """How far a hand's skin is from the skin that a notation says it touches.
 
 Sites and the converter have no part in it: the skin of the notated part of the hand is measured
-against the skin around the notated part of the body, or against the other hand.
+against the skin around the notated part of the body, or against the other hand. It is the skin as
+it is drawn: where a shoulder is raised, that of the chest is stretched.
 """
 
 from __future__ import annotations
@@ -12,10 +13,10 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
-from azee_rig.chain import Frames
 from azee_rig.rig import Rig
-from azee_solver.sliding import PartSkin, skin_of
+from azee_solver.sliding import skin_of
 from azee_solver.winding import distances, winding_numbers
 
 Array = NDArray[np.float64]
@@ -40,19 +41,20 @@ class Touch:
     second: tuple[str, ...] = ()
 
 
-def gap_m(rig: Rig, frames: Frames, touch: Touch, side: str) -> float:
+def gap_m(rig: Rig, q: Array, touch: Touch, side: str) -> float:
     """Return how far the skins are apart, in metres; 0 where one is inside the other.
 
-    Args: frames: of one posture. side: of the hand that touches, L or R.
+    Args: q: (V,) a posture. side: of the hand that touches, L or R.
     """
+    skin = rig.skin(rig.pose(q))
     names = [name for own in touch.own for name in _on_side(rig, own, side)]
-    points = np.vstack([_posed(rig, name, frames)[0] for name in names])
+    points = skin[np.unique(np.vstack([_triangles(rig, name) for name in names]))]
     bones = touch.on
     if not touch.near:
         bones = tuple(n for on in touch.on for n in _on_side(rig, on, "R" if side == "L" else "L"))
-    skins = [_posed(rig, bone, frames) for bone in bones]
-    surface = np.vstack([vertices[triangles] for vertices, triangles in skins])
+    surface = skin[np.vstack([_triangles(rig, bone) for bone in bones])]
     if touch.near:
+        frames = rig.chain.frames(q)
         first, second = (
             np.array([rig.sites[key].point(frames) for key in keys]).reshape(-1, 3)
             for keys in (touch.near, touch.second)
@@ -76,13 +78,11 @@ def _on_side(rig: Rig, own: str, side: str) -> Iterable[str]:
     return (name for name in known if name in rig.bones)
 
 
-def _posed(rig: Rig, bone: str, frames: Frames) -> tuple[Array, NDArray[np.int64]]:
-    """Return the skin of a bone in a posture: vertices (N, 3) and triangles (F, 3)."""
-    skin = _skin(rig, bone)
-    turned = skin.vertices @ frames.rotations[skin.node].T
-    return turned + frames.positions[skin.node], skin.triangles
-
-
 @lru_cache(maxsize=128)
-def _skin(rig: Rig, bone: str) -> PartSkin:
-    return skin_of(rig, rig.bones[bone])
+def _triangles(rig: Rig, bone: str) -> NDArray[np.int64]:
+    """Return the triangles of the mesh (F, 3) that are the skin of a bone."""
+    part, bind = skin_of(rig, rig.bones[bone]), np.asarray(rig.coordinates.bind)
+    frames = rig.chain.frames(bind)
+    placed = part.vertices @ frames.rotations[part.node].T + frames.positions[part.node]
+    rows: NDArray[np.int64] = cKDTree(rig.skin(rig.pose(bind))).query(placed)[1]
+    return rows[part.triangles]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import sys
 import tempfile
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -48,11 +49,12 @@ def rows() -> Iterator[str]:
 
 def _cell(made: object) -> str:
     from azee.compilation import Compilation
+    from azee_solver.outcome import Outcome
 
     assert isinstance(made, Compilation)
-    results = made.report.constraints
-    met = sum(c.met for c in results)
-    return f"{met} · {len(results) - met} · {len(made.left_out)}"
+    counts = Counter(c.outcome for c in made.report.constraints)
+    parts = *(counts[outcome] for outcome in Outcome), len(made.left_out)
+    return " · ".join(map(str, parts))
 
 
 def main() -> None:

@@ -135,6 +135,7 @@ def test_a_joint_at_its_lower_limit_is_told_on_whichever_side_that_is(
 
 
 def test_a_morph_that_is_missed_conflicts_only_with_what_moves_the_same_joints() -> None:
-    forward = along(BoneAxis.DIR, Bone("index", Side.STRONG, 1), Nrm(Bone("palm", Side.STRONG)))
+    index, palm = Bone("index", Side.STRONG, 1), Bone("palm", Side.STRONG)
+    forward = Orient(BoneAxis.DIR, index, Relation.ALONG, Nrm(palm))
     found = reasons(stick_body(), Morph("index_bend", Side.STRONG, 0.0), forward, Look(LEFT))
     assert found[0] == "conflicts with `orient 'dir !index(s, 1) 'along nrm(!palm(s))`"

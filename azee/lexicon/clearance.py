@@ -64,14 +64,15 @@ def cleared(hand: Hand, before: Hand | None = None) -> Hand:
     where = _where(place)
     if where is None:
         return hand
-    led_m = _led_by_m(hand.site, _reach_m(hand.shape)) * fingers[2]
+    reach_m = _reach_m(hand.shape)
+    led_m = _led_by_m(hand.site, reach_m) * fingers[2]
     if before is not None and before.pointing not in (None, fingers) and _came_from(before, place):
         beyond_m = _led_by_m(before.site, _reach_m(before.shape))
         where, led_m = plus(where, times(before.pointing, -beyond_m)), 0.0
     front_m = _front_m(where)
     if front_m is None:
         return hand
-    reach_m, skin_m = _reach_m(hand.shape), SKIN_M
+    skin_m = SKIN_M
     if place.origin is not None and place.origin.touches:
         skin_m = 0.0  # it slides over the skin
     behind_m = max(-reach_m * fingers[2], _WRIST_M * fingers[2], 0.0) + _BACK_M * max(palm[2], 0.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from azee.lang.program import load
+from azee.lang.values import ConstraintsValue
 from azee.posing.handshapes import shape_names
 from azee_grammar.source import Source
 from azee_rig.rig import Rig
@@ -32,7 +33,9 @@ def test_a_rule_that_also_moves_the_face_is_no_shape_of_a_hand(signer: Rig) -> N
     assert not program.check()
     limits = signer.coordinates
     q = np.array(limits.idle)
-    fist = body.binding.presets(program.value(":#plain-fist").content)  # type: ignore[arg-type]
+    value = program.value(":#plain-fist")
+    assert isinstance(value, ConstraintsValue)
+    fist = body.binding.presets(value.content)
     q[[*fist]] = [*fist.values()]
     q = np.clip(q, limits.lower, limits.upper)
     found = [shape.text for shape in shape_names(program, body, q, Side.STRONG)]

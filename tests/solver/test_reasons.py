@@ -21,7 +21,7 @@ from azee_solver.constraint import (
     Relation,
     Rotate,
 )
-from azee_solver.geometry import Bone, FreePoint, Nrm, Side, Site, Vec
+from azee_solver.geometry import Bone, Dir, FreePoint, Nrm, Side, Site, SitePoint, Vec
 from azee_solver.solve import solve
 from azee_solver.task import Task
 
@@ -139,3 +139,19 @@ def test_a_morph_that_is_missed_conflicts_only_with_what_moves_the_same_joints()
     forward = Orient(BoneAxis.DIR, index, Relation.ALONG, Nrm(palm))
     found = reasons(stick_body(), Morph("index_bend", Side.STRONG, 0.0), forward, Look(LEFT))
     assert found[0] == "conflicts with `orient 'dir !index(s, 1) 'along nrm(!palm(s))`"
+
+
+def test_a_rival_that_is_linked_through_another_constraint_is_named(signer: Rig) -> None:
+    """Thumb and index finger share no joint; that their tips touch makes them rivals."""
+    index, thumb = Bone("index", Side.STRONG, 2), Bone("thumb", Side.STRONG, 2)
+    palm = Bone("palm", Side.STRONG)
+    straight = Orient(BoneAxis.DIR, thumb, Relation.ALONG, Dir(palm))
+    touch = Place(Site("I_TIP", Side.STRONG), SitePoint(Site("T_TIP", Side.STRONG)))
+    bent = Orient(BoneAxis.DIR, index, Relation.ALONG, Nrm(palm))
+    for two in ((straight, touch), (straight, bent), (touch, bent)):
+        assert reasons(signer, *two) == {}
+    (told,) = reasons(signer, straight, touch, bent).values()
+    assert told == (
+        "conflicts with `place @I_TIP(s) @T_TIP(s)` and "
+        "`orient 'dir !index(s, 2) 'along nrm(!palm(s))` together"
+    )

@@ -7,11 +7,13 @@ reference signer, from the middle between the shoulders.
 from __future__ import annotations
 
 from dataclasses import replace
+from math import atan2, cos, degrees, radians, sin
 
 from azee.lexicon.hands import Hand
 from azee.lexicon.model import HandShape
+from azee.lexicon.phrase import CircleWay
 from azee.lexicon.places import Place, Site
-from azee.lexicon.vectors import ZERO, Vector, plus, times
+from azee.lexicon.vectors import ZERO, Vector, cross, dot, plus, times, unit
 
 SKIN_M = 0.01
 """How far before the body a hand ends."""
@@ -78,6 +80,50 @@ def cleared(hand: Hand, before: Hand | None = None) -> Hand:
     behind_m = max(-reach_m * fingers[2], _WRIST_M * fingers[2], 0.0) + _BACK_M * max(palm[2], 0.0)
     lacking_m = front_m + skin_m + behind_m - where[2] + led_m
     return replace(hand, place=_forward(place, lacking_m)) if lacking_m > 0 else hand
+
+
+def circle_before_body(way: CircleWay, hand: Hand) -> CircleWay:
+    """Return a circle that does not lead into the body: it starts where it is nearest to it.
+
+    So is a circle on the chest, from contact to contact; one that would not lead there starts where
+    it did.
+    """
+    place = hand.place
+    where = None if place is None else _where(place)
+    if place is None or where is None:
+        return way
+    nearest = _rearmost(way)
+    step = plus(_on_circle(way, nearest), times(_on_circle(way, way.phase), -1))
+    if step[2] > -SKIN_M:
+        return way
+    front_m = _front_m(plus(where, step))
+    leads_in = front_m is not None and where[2] + step[2] < front_m + _BACK_M
+    return replace(way, phase=nearest) if place.touches or leads_in else way
+
+
+def _rearmost(way: CircleWay) -> int:
+    """Return how many degrees beyond its top a circle is nearest to the signer."""
+    top, beside = _spokes(way)
+    return round(degrees(atan2(-beside[2], -top[2]))) % 360
+
+
+def _on_circle(way: CircleWay, phase: int) -> Vector:
+    """Return where a circle is, so many degrees beyond its top, from its middle, in metres."""
+    top, beside = _spokes(way)
+    angle = radians(phase)
+    return plus(times(top, cos(angle)), times(beside, sin(angle)))
+
+
+def _spokes(way: CircleWay) -> tuple[Vector, Vector]:
+    """Return the ways from a circle's middle to its top and to a quarter beyond, in metres.
+
+    The top is the highest point; of a level circle, the one farthest in front (as in `circle`).
+    """
+    axis = unit(way.axis)
+    highest: Vector = (0, 0, 1) if abs(axis[1]) > 1 - 1e-6 else (0, 1, 0)
+    top = unit(plus(highest, times(axis, -dot(axis, highest))))
+    radius_m = way.radius_m
+    return times(top, radius_m * way.ratio), times(cross(axis, top), radius_m)
 
 
 def _came_from(before: Hand, place: Place) -> bool:

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from azee.lexicon.clearance import cleared
+from azee.lexicon.clearance import circle_before_body, cleared
 from azee.lexicon.codes import bulge, direction
 from azee.lexicon.hand_text import Told
-from azee.lexicon.hands import NO_FLIP, Hands, changed, flip_of, flipped, flipped_axis
+from azee.lexicon.hands import NO_FLIP, Hand, Hands, changed, flip_of, flipped, flipped_axis
 from azee.lexicon.model import (
     Circle,
     Constellation,
@@ -270,8 +270,20 @@ class Mover:
                 (phase + half) % 360,
                 ratio or 1.0,
             )
+            if move.start is None and move.end is None and not self._alternates:
+                way = self._before_body(way, hands[name])
             moves.append(Move(0, length_s, name, way, hands[name].site))
         return Phrase(length_s, moves=moves), hands
+
+    def _before_body(self, way: CircleWay, hand: Hand) -> CircleWay:
+        """Return a circle of which it is not said where it starts, so that it leaves the body."""
+        outside = circle_before_body(way, hand)
+        if outside != way:
+            self.told(
+                "circle-into-the-body",
+                "a circle that would lead into the body starts where it is nearest to it",
+            )
+        return outside
 
     def _clock(self, move: Circle) -> tuple[int, float]:
         """Return where a circle starts, in degrees from its top, and how many turns it makes.

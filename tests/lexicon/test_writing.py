@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
 from pairs import sigml
 
-from azee.lexicon.clearance import cleared
+from azee.lexicon.clearance import circle_before_body, cleared
 from azee.lexicon.hands import Hand
 from azee.lexicon.model import Form, HandShape, Heading, OnBody
+from azee.lexicon.phrase import CircleWay
 from azee.lexicon.places import Place, Site, apart, body_place
 from azee.lexicon.reading import read_bytes
 from azee.lexicon.rule_text import rule_text
+from azee_solver.path import circle
 
 POINTING_UP = '<handconfig handshape="flat" extfidir="u" palmor="l"/>'
 
@@ -115,6 +122,66 @@ def test_a_hand_that_touches_the_body_stays_where_it_is() -> None:
     assert cleared(hand) == hand
     other = Hand(None, Heading("i"), Heading("l"), Site("PA", "s"), Place((Site("PA", "w"),)))
     assert cleared(other) == other
+
+
+TOLD_CIRCLE = "a circle that would lead into the body starts where it is nearest to it"
+
+
+def _circles(location: str, circles: str, more: str = "") -> str:
+    return _rule(f"<sign_manual {more}>{POINTING_UP}{location}{circles}</sign_manual>")
+
+
+@pytest.mark.parametrize(
+    ("location", "circles", "phase"),
+    [
+        ('location="chest" contact="touch"', 'axis="r"', "'phase, 90"),
+        ('location="chest" contact="touch"', 'axis="l"', "'phase, 270"),
+        ('location="chest" contact="touch"', 'axis="u"', "'phase, 180"),
+        ('location="chest" contact="close"', 'axis="u" size="big"', "'phase, 180"),
+        ('location="lips" contact="touch"', 'axis="r" size="small"', "'phase, 90"),
+    ],
+)
+def test_a_circle_that_would_lead_into_the_body_starts_where_it_is_nearest_to_it(
+    location: str, circles: str, phase: str
+) -> None:
+    text = _circles(f"<location_bodyarm {location}/>", f"<circularmotion {circles}/>")
+    assert phase in text
+    assert TOLD_CIRCLE in text
+
+
+@pytest.mark.parametrize(
+    ("location", "circles", "more"),
+    [
+        ('location="chest" contact="touch"', 'axis="o"', ""),
+        ('location="chest" contact="touch"', 'axis="r" start="d"', ""),
+        ('location="chest" contact="touch"', 'axis="r" end="r"', ""),
+        ('location="chest" contact="touch"', 'axis="r"', 'both_hands="true" outofphase="true"'),
+        ('location="shouldertop" contact="touch"', 'axis="r"', ""),
+        ('location="chest" contact="close"', 'axis="r" size="small"', ""),
+    ],
+)
+def test_a_circle_that_stays_outside_or_whose_start_is_told_starts_as_it_is_notated(
+    location: str, circles: str, more: str
+) -> None:
+    text = _circles(f"<location_bodyarm {location}/>", f"<circularmotion {circles}/>", more)
+    assert "circle(" in text
+    assert TOLD_CIRCLE not in text
+
+
+@given(st.tuples(*(st.floats(-1, 1) for _ in range(3))), st.floats(0.5, 2.0), st.integers(0, 359))
+def test_from_its_start_a_circle_at_the_chest_only_leads_away_from_it(
+    axis: tuple[float, float, float], ratio: float, phase: int
+) -> None:
+    assume(math.hypot(*axis) > 0.1)
+    assume(abs(axis[1]) < 0.999 * math.hypot(*axis))
+    hand = Hand(None, site=Site("PA", "s"), place=Place((Site("ST"),), touches=True))
+    way = circle_before_body(CircleWay(axis, 0.1, 1.0, phase, ratio), hand)
+    start = np.zeros(3)
+    points = circle(
+        start, start, np.array(axis), 0.1, 1.0, np.linspace(0, 1, 73),
+        phase=math.radians(way.phase), ratio=ratio,
+    )  # fmt: skip
+    assert points[:, 2].min() > -0.0101
 
 
 def test_thumb_and_index_of_a_bent_pinch_touch() -> None:

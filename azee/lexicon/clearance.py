@@ -17,6 +17,8 @@ from azee.lexicon.vectors import ZERO, Vector, cross, dot, plus, times, unit
 
 SKIN_M = 0.01
 """How far before the body a hand ends."""
+LEAST_CIRCLE = 0.4
+"""Of its size that a circle keeps which is made smaller to stay before the body."""
 _FRONTS = (
     (0.36, 0.12, 0.12, 0.12, 0.09),
     (0.12, 0.03, 0.06, 0.10, 0.09),
@@ -82,11 +84,12 @@ def cleared(hand: Hand, before: Hand | None = None) -> Hand:
     return replace(hand, place=_forward(place, lacking_m)) if lacking_m > 0 else hand
 
 
-def circle_before_body(way: CircleWay, hand: Hand) -> CircleWay:
+def circle_before_body(way: CircleWay, hand: Hand, *, is_start_told: bool = False) -> CircleWay:
     """Return a circle that does not lead into the body: it starts where it is nearest to it.
 
-    So is a circle on the chest, from contact to contact; one that would not lead there starts where
-    it did.
+    So is a circle on the chest, from contact to contact. Where a notation tells the start, a circle
+    in space is made smaller instead, to no less than `LEAST_CIRCLE`. One that would not lead into
+    the body stays as it is.
     """
     place = hand.place
     where = None if place is None else _where(place)
@@ -97,8 +100,13 @@ def circle_before_body(way: CircleWay, hand: Hand) -> CircleWay:
     if step[2] > -SKIN_M:
         return way
     front_m = _front_m(plus(where, step))
-    leads_in = front_m is not None and where[2] + step[2] < front_m + _BACK_M
-    return replace(way, phase=nearest) if place.touches or leads_in else way
+    room_m = None if front_m is None else where[2] - front_m - _BACK_M
+    leads_in = room_m is not None and room_m < -step[2]
+    if not is_start_told:
+        return replace(way, phase=nearest) if place.touches or leads_in else way
+    if place.touches or not leads_in or room_m is None:
+        return way
+    return replace(way, radius_m=way.radius_m * max(room_m / -step[2], LEAST_CIRCLE))
 
 
 def _rearmost(way: CircleWay) -> int:

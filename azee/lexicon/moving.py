@@ -270,19 +270,17 @@ class Mover:
                 (phase + half) % 360,
                 ratio or 1.0,
             )
-            if move.start is None and move.end is None and not self._alternates:
-                way = self._before_body(way, hands[name])
+            if not self._alternates:
+                way = self._before_body(way, hands[name], told=bool(move.start or move.end))
             moves.append(Move(0, length_s, name, way, hands[name].site))
         return Phrase(length_s, moves=moves), hands
 
-    def _before_body(self, way: CircleWay, hand: Hand) -> CircleWay:
-        """Return a circle of which it is not said where it starts, so that it leaves the body."""
-        outside = circle_before_body(way, hand)
+    def _before_body(self, way: CircleWay, hand: Hand, *, told: bool) -> CircleWay:
+        """Return a circle outside the body. told: whether it is said where it starts or ends."""
+        outside = circle_before_body(way, hand, is_start_told=told)
         if outside != way:
-            self.told(
-                "circle-into-the-body",
-                "a circle that would lead into the body starts where it is nearest to it",
-            )
+            done = "is smaller" if told else "starts where it is nearest to it"
+            self.told("circle-into-the-body", f"a circle that would lead into the body {done}")
         return outside
 
     def _clock(self, move: Circle) -> tuple[int, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -124,7 +125,7 @@ def test_a_hand_that_touches_the_body_stays_where_it_is() -> None:
     assert cleared(other) == other
 
 
-TOLD_CIRCLE = "a circle that would lead into the body starts where it is nearest to it"
+TOLD_CIRCLE = "a circle that would lead into the body"
 
 
 def _circles(location: str, circles: str, more: str = "") -> str:
@@ -146,7 +147,7 @@ def test_a_circle_that_would_lead_into_the_body_starts_where_it_is_nearest_to_it
 ) -> None:
     text = _circles(f"<location_bodyarm {location}/>", f"<circularmotion {circles}/>")
     assert phase in text
-    assert TOLD_CIRCLE in text
+    assert f"{TOLD_CIRCLE} starts where it is nearest to it" in text
 
 
 @pytest.mark.parametrize(
@@ -166,6 +167,22 @@ def test_a_circle_that_stays_outside_or_whose_start_is_told_starts_as_it_is_nota
     text = _circles(f"<location_bodyarm {location}/>", f"<circularmotion {circles}/>", more)
     assert "circle(" in text
     assert TOLD_CIRCLE not in text
+
+
+def test_a_circle_whose_start_is_told_is_smaller_where_it_would_lead_into_the_body() -> None:
+    place = '<location_bodyarm location="chest" contact="close"/>'
+    text = _circles(place, '<circularmotion axis="u" size="big" start="u"/>')
+    assert f"{TOLD_CIRCLE} is smaller" in text
+    assert "'phase" not in text
+    before = CircleWay((0.0, 1.0, 0.0), 0.144, 1.0)
+    hand = Hand(None, site=Site("PA", "s"), place=Place(offset=(0.0, -0.1, 0.26)))
+    way = circle_before_body(before, hand, is_start_told=True)
+    assert 0.26 - 2 * way.radius_m == pytest.approx(0.14, abs=0.015)
+    near = replace(hand, place=Place(offset=(0.0, -0.1, 0.15)))
+    least = circle_before_body(before, near, is_start_told=True)
+    assert least.radius_m == pytest.approx(0.4 * before.radius_m)
+    far = replace(hand, place=Place(offset=(0.0, -0.1, 0.5)))
+    assert circle_before_body(before, far, is_start_told=True) == before
 
 
 @given(st.tuples(*(st.floats(-1, 1) for _ in range(3))), st.floats(0.5, 2.0), st.integers(0, 359))

@@ -187,6 +187,15 @@ def test_a_meant_contact_concerns_what_is_at_its_two_sites_and_nothing_else() ->
     }
 
 
+def test_a_site_of_the_lowest_joint_is_touched_like_others() -> None:
+    """One that hangs on no joint at all has no capsules around it."""
+    touch = Place(Site("PA", S), SitePoint(Site("ST")), contact=True)
+    for node, touched in ((0, {frozenset({"hand_R", "trunk_1"})}), (-1, set())):
+        low = replace(RIG.sites["ST"], bone="back_1", node=node, position=np.array([0, 0.1, 0.1]))
+        rig = replace(RIG, sites={**RIG.sites, "ST": low})
+        assert allowed(rig, touch).keys() == touched
+
+
 def test_beyond_a_palm_the_farther_a_finger_is_the_less_it_may_overlap() -> None:
     """Wholly up to 4 cm from its skin, half as much at 7 cm and not at all from 10 cm."""
     skin_m = (0.03, 0.05, 0.07, 0.09, 0.12)

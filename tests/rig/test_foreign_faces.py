@@ -18,9 +18,9 @@ from PIL import Image
 
 from azee_rig.importing import importer
 from azee_rig.importing.container import read_gltf
-from azee_rig.importing.face import map_face
+from azee_rig.importing.face import map_face, pack_units
 from azee_rig.importing.importer import import_body
-from azee_rig.importing.scene import read_scene
+from azee_rig.importing.scene import Target, read_scene
 from azee_rig.load import load_rig
 from azee_rig.rig import Rig
 
@@ -63,6 +63,12 @@ def test_a_vrm_that_has_the_unit_itself_uses_it() -> None:
     said = {"aa": {"Fcl_MTH_A": 1.0}}
     face = map_face(["Fcl_MTH_A", "jawOpen"], said, DATA, TABLE, {"jawOpen": ("a", 1.0)})
     assert list(face.lids) == ["jawOpen"]
+
+
+def test_a_vrm_that_leaves_a_word_empty_says_nothing_about_it() -> None:
+    said: dict[str, dict[str, float]] = {"jawOpen": {}, "aa": {}}
+    face = map_face(["jawOpen"], said, DATA, TABLE, {"jawOpen": ("a", 1.0)})
+    assert face.lids == {"jawOpen": ("a", 1.0)}
 
 
 @pytest.mark.parametrize(
@@ -115,6 +121,24 @@ def test_a_unit_that_a_face_lacks_borrows_of_a_near_one_that_is_not_asked_for_it
     assert face.partly == ("alone", "both")
     lids = {"eyeBlinkLeft": ("eye_L.pitch", 1.0)}
     assert map_face(["eyeBlinkLeft", near], {}, DATA, table, lids).targets == (near, "eyeBlinkLeft")
+
+
+def test_a_unit_borrows_of_a_near_one_that_no_morph_and_no_lid_asks_for() -> None:
+    near, lacking = "noseSneerLeft", "mh_nose-left-elevation"
+    for weight in (0.8, -0.8):
+        table = {"expressed": {"X": {lacking: weight}}, "not_expressed": {}}
+        face = map_face([near], {}, DATA, table, {})
+        assert face.expressed == {"X": {near: pytest.approx(0.6 * weight)}}
+
+
+@pytest.mark.parametrize("in_table", [True, False])
+def test_a_unit_that_only_the_signer_knows_is_one_of_that_name(in_table: bool) -> None:
+    """A table of morphs or a lid may ask for what no other face is known to call so."""
+    lids = {} if in_table else {"ourOwn": ("a", 1.0)}
+    expressed = {"X": {"ourOwn": 0.7}} if in_table else {}
+    face = map_face(["ourOwn"], {}, DATA, {"expressed": expressed, "not_expressed": {}}, lids)
+    assert (face.expressed, face.lids) == (expressed, lids)
+    assert face.targets == ("ourOwn",)
 
 
 def test_the_end_of_another_word_is_no_name() -> None:
@@ -307,6 +331,7 @@ def test_a_texture_that_cannot_be_read_is_told(
         ({"jawOpen": 0.5, "mouthPucker": 0.5}, True, True),
         ({"jawOpen": 0.49, "mouthPucker": 0.51}, False, False),
         ({"jawOpen": 0.9995, "mouthPucker": 0.0005}, True, False),
+        ({"jawOpen": 0.999, "mouthPucker": 0.001}, True, False),
         ({"jawOpen": 0.99, "mouthPucker": 0.01}, True, True),
         ({"jawOpen": -0.7, "mouthPucker": 0.3}, True, True),
         ({"mouthPucker": 1.0}, False, False),
@@ -322,7 +347,7 @@ def test_a_morph_is_shown_if_half_of_it_is_there(
     if shown:
         assert face.expressed["X"] == {"jawOpen": units["jawOpen"]}
     else:
-        assert "mouthPucker" in face.unexpressed["X"]
+        assert face.unexpressed["X"] == "this body's face has no morph target for mouthPucker"
 
 
 def test_a_target_for_both_sides_stands_for_two_units_of_one_weight() -> None:
@@ -332,6 +357,10 @@ def test_a_target_for_both_sides_stands_for_two_units_of_one_weight() -> None:
     assert face.partly == ()
     uneven = {"expressed": {"X": {"eyeBlinkLeft": 0.8, "eyeBlinkRight": 0.3}}, "not_expressed": {}}
     assert map_face(["Blink"], {}, DATA, uneven, {}).expressed == {}
+    even = {"expressed": {"X": {"eyeBlinkLeft": -0.8, "eyeBlinkRight": -0.8}}, "not_expressed": {}}
+    assert map_face(["Blink"], {}, DATA, even, {}).expressed == {"X": {"Blink": -0.8}}
+    for one in ("Blink_L", "Blink_R"):
+        assert map_face(["Blink", one], {}, DATA, both, {}).expressed["X"] == {"Blink": 0.8}
     sides = map_face(["Blink", "Blink_L", "Blink_R"], {}, DATA, both, {})
     assert sides.expressed["X"] == {"Blink_L": 0.8, "Blink_R": 0.8}
 
@@ -340,7 +369,35 @@ def test_a_target_that_shows_a_unit_in_part_is_set_to_a_part_of_its_weight() -> 
     """A preset of a VRM may set half a target; two units may share one."""
     said = {"aa": {"Mouth": 0.5}}
     table = {"expressed": {"X": {"jawOpen": 0.8}}, "not_expressed": {}}
-    assert map_face(["Mouth"], said, DATA, table, {}).expressed == {"X": {"Mouth": 0.4}}
+    face = map_face(["Mouth"], said, DATA, table, {"jawOpen": ("a", 0.6)})
+    assert face.expressed == {"X": {"Mouth": 0.4}}
+    assert face.lids == {"Mouth": ("a", 0.3)}
+
+
+def test_a_weight_has_six_digits_behind_the_point() -> None:
+    table = {"expressed": {"X": {"jawOpen": 0.12345678}}, "not_expressed": {}}
+    assert map_face(["jawOpen"], {}, DATA, table, {}).expressed["X"] == {"jawOpen": 0.123457}
+
+
+def test_targets_of_one_name_are_joined_and_sorted_by_the_vertices_they_move() -> None:
+    """Skin, lashes and teeth may each have their own, in meshes of their own."""
+
+    def target(mesh: int, name: str, rows: list[int]) -> Target:
+        return Target(mesh, 0, name, np.array(rows), np.outer(rows, [1.0, 2.0, 3.0]))
+
+    targets = [target(0, "a", [7, 2]), target(0, "b", [4]), target(1, "a", [5]),
+               target(1, "other", [1])]  # fmt: skip
+    units = pack_units(targets, ["b", "none", "a"])
+    assert units.names == ("b", "none", "a")
+    assert units.start.tolist() == [0, 1, 1, 4]
+    assert units.rows.tolist() == [4, 2, 5, 7]
+    np.testing.assert_array_equal(units.deltas, np.outer(units.rows, [1.0, 2.0, 3.0]))
+
+
+def test_without_targets_there_are_no_units() -> None:
+    units = pack_units([], [])
+    assert units.start.tolist() == [0]
+    assert (units.rows.shape, units.deltas.shape) == ((0,), (0, 3))
 
 
 @pytest.mark.parametrize(("other", "shown"), [(1.5, True), (1.7, False)])

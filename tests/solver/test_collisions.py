@@ -187,6 +187,15 @@ def test_a_meant_contact_concerns_what_is_at_its_two_sites_and_nothing_else() ->
     }
 
 
+def test_a_site_of_the_lowest_joint_is_touched_like_others() -> None:
+    """One that hangs on no joint at all has no capsules around it."""
+    touch = Place(Site("PA", S), SitePoint(Site("ST")), contact=True)
+    for node, touched in ((0, {frozenset({"hand_R", "trunk_1"})}), (-1, set())):
+        low = replace(RIG.sites["ST"], bone="back_1", node=node, position=np.array([0, 0.1, 0.1]))
+        rig = replace(RIG, sites={**RIG.sites, "ST": low})
+        assert allowed(rig, touch).keys() == touched
+
+
 def test_beyond_a_palm_the_farther_a_finger_is_the_less_it_may_overlap() -> None:
     """Wholly up to 4 cm from its skin, half as much at 7 cm and not at all from 10 cm."""
     skin_m = (0.03, 0.05, 0.07, 0.09, 0.12)
@@ -303,6 +312,52 @@ def test_other_fingers_of_a_hand_lie_on_the_trunk_that_one_touches(signer: Rig) 
     assert all(any(name.startswith("trunk") for name in pair) for pair in lower)
 
 
+@pytest.mark.parametrize(
+    ("other", "contact", "wide"),
+    [
+        (Site("ST"), True, True),
+        (Site("ST"), False, False),
+        (Site("WR", W), True, True),
+        (Site("WR", W), False, False),
+        (Site("SH", W), True, True),
+        (Site("M_PAD", W), True, False),
+    ],
+)
+def test_other_fingers_take_part_where_one_is_called_to_touch_a_trunk_or_an_arm(
+    signer: Rig, other: Site, contact: bool, wide: bool
+) -> None:
+    """Less than the one that touches does."""
+    found = allowed(signer, Place(Site("M_PAD", S), SitePoint(other), contact=contact))
+    most = {
+        finger: max((m for pair, m in found.items() if any(n.startswith(finger) for n in pair)),
+                    default=0.0)
+        for finger in ("middle_R_3", "ring_R_3")
+    }  # fmt: skip
+    assert (most["ring_R_3"] > 0.0) == wide
+    assert most["middle_R_3"] > 0.0
+    assert most["ring_R_3"] <= most["middle_R_3"]
+
+
+def test_a_contact_that_is_called_one_forgives_a_millimetre_more() -> None:
+    """Two elbows, whose capsules do not stand out beyond their skin."""
+    for contact, forgiven_m in ((False, 0.001), (True, 0.002)):
+        elbows = Place(Site("EL", S), SitePoint(Site("EL", W)), contact=contact)
+        assert allowed(RIG, elbows) == {
+            frozenset({"upper_L", "upper_R"}): pytest.approx(forgiven_m)
+        }
+
+
+def test_how_far_a_forearm_stands_out_at_the_elbow_is_told_with_the_elbow_bent() -> None:
+    """By nine tenths of 145°: there its capsule begins next to a site in the crook of the arm."""
+    crook = replace(RIG.sites["EL_R"], position=np.array([0.0, 0.29, 0.02]))
+    rig = replace(RIG, sites={**RIG.sites, "EL_R": crook})
+    bent = np.radians(0.9 * 145.0)
+    begins = np.array([0.3, 0.0]) + 0.03 * np.array([np.cos(bent), np.sin(bent)])
+    out_m = 0.035 - np.linalg.norm(begins - crook.position[1:])
+    found = allowed(rig, ELBOW_IN_PALM)[frozenset({"fore_R", "hand_L"})]
+    assert found == pytest.approx(out_m + 0.01 + 0.009, abs=1e-6)
+
+
 def test_overlaps_are_reported_deepest_first() -> None:
     q = np.array(RIG.coordinates.idle)
     q[RIG.coordinates.index["f_arm_R.flexion"]] = np.radians(120)
@@ -313,6 +368,52 @@ def test_overlaps_are_reported_deepest_first() -> None:
     assert {found[0].first, found[0].second} & {"fore_R", "hand_R"}
     depths = [o.depth_m for o in found]
     assert depths == sorted(depths, reverse=True)
+    apart, radius = (
+        axes_apart(RIG, q),
+        dict(zip(RIG.capsules.names, RIG.capsules.radius, strict=True)),
+    )
+    for o in found:  # without the margin that a search keeps
+        gap = apart[frozenset({o.first, o.second})]
+        assert o.depth_m == pytest.approx(radius[o.first] + radius[o.second] - gap)
+
+
+def axes_apart(rig: Rig, q: Array) -> dict[frozenset[str], float]:
+    """Return how far the axes of pairs of capsules are apart in a posture, metres."""
+    c, frames = rig.capsules, rig.chain.frames(q)
+    R, o = frames.rotations[c.node], frames.positions[c.node]
+    a, b = (np.einsum("kij,kj->ki", R, end) + o for end in (c.a, c.b))
+    i, j = np.vstack([c.pairs, c.finger_pairs]).T
+    gaps = segment_distance(a[i], b[i], a[j], b[j])
+    return {
+        frozenset({c.names[k], c.names[m]}): float(gap)
+        for k, m, gap in zip(i, j, gaps, strict=True)
+    }
+
+
+def test_a_body_without_thumbs_keeps_clear_of_itself_too() -> None:
+    bones = {name: nodes for name, nodes in RIG.bones.items() if not name.startswith("thumb")}
+    these = Obstacles(Binding(replace(RIG, bones=bones), Side.RIGHT), BODY, ())
+    np.testing.assert_array_equal(these.reach, obstacles().reach)
+
+
+def test_thick_fingers_are_as_near_as_when_straight_and_thick_thumbs_as_in_the_mesh(
+    signer: Rig,
+) -> None:
+    c = replace(signer.capsules, radius=2.5 * signer.capsules.radius)
+    rig = replace(signer, capsules=c)
+    these = Obstacles(Binding(rig, Side.RIGHT), anatomy(rig.chain, rig.coordinates), ())
+    straight = axes_apart(rig, np.zeros(len(rig.coordinates)))
+    modelled = axes_apart(rig, np.array(rig.coordinates.bind))
+    digits = ("thumb", "index", "middle", "ring", "little")
+    nearer = {"thumb": 0, "fingers": 0}
+    for (i, j), reach in zip(these.pairs, these.reach, strict=True):
+        names = frozenset({c.names[i], c.names[j]})
+        if all("_R" in name and name.startswith(digits) for name in names):
+            thumb = any(name.startswith("thumb") for name in names)
+            gap, thick = (modelled if thumb else straight)[names], c.radius[i] + c.radius[j]
+            assert reach == pytest.approx(min(thick, gap)), names
+            nearer["thumb" if thumb else "fingers"] += bool(gap < thick)
+    assert min(nearer.values()) > 0
 
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=np.float64)

@@ -21,7 +21,21 @@ from azee_solver.constraint import (
     Relation,
     Rotate,
 )
-from azee_solver.geometry import Bone, Dir, FreePoint, Nrm, Side, Site, SitePoint, Vec
+from azee_solver.geometry import (
+    Bone,
+    Dir,
+    FreePoint,
+    Nrm,
+    Side,
+    Site,
+    SitePoint,
+    Vec,
+    Vector,
+    WorldPoint,
+)
+from azee_solver.moment import Moment
+from azee_solver.options import SolveOptions
+from azee_solver.reasons import Diagnosis
 from azee_solver.solve import solve
 from azee_solver.task import Task
 
@@ -30,7 +44,7 @@ LEFT, UP, FORWARD = Vec(1.0, 0.0, 0.0), Vec(0.0, 1.0, 0.0), Vec(0.0, 0.0, 1.0)
 FAR_LEFT, RIGHT_FORWARD = Vec(1.0, 0.0, 0.2), Vec(-1.0, 0.0, 1.0)
 
 
-def along(axis: BoneAxis, bone: Bone, vector: Vec) -> Orient:
+def along(axis: BoneAxis, bone: Bone, vector: Vector) -> Orient:
     return Orient(axis, bone, Relation.ALONG, vector)
 
 
@@ -141,17 +155,92 @@ def test_a_morph_that_is_missed_conflicts_only_with_what_moves_the_same_joints()
     assert found[0] == "conflicts with `orient 'dir !index(s, 1) 'along nrm(!palm(s))`"
 
 
+INDEX, THUMB, PALM = (
+    Bone("index", Side.STRONG, 2), Bone("thumb", Side.STRONG, 2), Bone("palm", Side.STRONG)
+)  # fmt: skip
+STRAIGHT_THUMB = along(BoneAxis.DIR, THUMB, Dir(PALM))
+BENT_INDEX = along(BoneAxis.DIR, INDEX, Nrm(PALM))
+TIPS_TOUCH = Place(Site("I_TIP", Side.STRONG), SitePoint(Site("T_TIP", Side.STRONG)))
+ALL_THREE_EXCLUDE_EACH_OTHER = (
+    "conflicts with `place @I_TIP(s) @T_TIP(s)` and "
+    "`orient 'dir !index(s, 2) 'along nrm(!palm(s))` together"
+)
+
+
 def test_a_rival_that_is_linked_through_another_constraint_is_named(signer: Rig) -> None:
     """Thumb and index finger share no joint; that their tips touch makes them rivals."""
-    index, thumb = Bone("index", Side.STRONG, 2), Bone("thumb", Side.STRONG, 2)
-    palm = Bone("palm", Side.STRONG)
-    straight = Orient(BoneAxis.DIR, thumb, Relation.ALONG, Dir(palm))
-    touch = Place(Site("I_TIP", Side.STRONG), SitePoint(Site("T_TIP", Side.STRONG)))
-    bent = Orient(BoneAxis.DIR, index, Relation.ALONG, Nrm(palm))
-    for two in ((straight, touch), (straight, bent), (touch, bent)):
+    for two in (
+        (STRAIGHT_THUMB, TIPS_TOUCH), (STRAIGHT_THUMB, BENT_INDEX), (TIPS_TOUCH, BENT_INDEX)
+    ):  # fmt: skip
         assert reasons(signer, *two) == {}
-    (told,) = reasons(signer, straight, touch, bent).values()
-    assert told == (
-        "conflicts with `place @I_TIP(s) @T_TIP(s)` and "
-        "`orient 'dir !index(s, 2) 'along nrm(!palm(s))` together"
-    )
+    for three in (
+        (STRAIGHT_THUMB, TIPS_TOUCH, BENT_INDEX), (STRAIGHT_THUMB, BENT_INDEX, TIPS_TOUCH)
+    ):  # fmt: skip
+        assert reasons(signer, *three) == {0: ALL_THREE_EXCLUDE_EACH_OTHER}
+
+
+def test_a_rival_without_which_nothing_could_be_met_either_is_not_named(signer: Rig) -> None:
+    """The middle finger follows the index finger wherever that is."""
+    follows = along(BoneAxis.DIR, Bone("middle", Side.STRONG, 1), Dir(replace(INDEX, phalanx=1)))
+    (told,) = reasons(signer, STRAIGHT_THUMB, TIPS_TOUCH, BENT_INDEX, follows).values()
+    assert told == ALL_THREE_EXCLUDE_EACH_OTHER
+
+
+@pytest.mark.parametrize(("apart", "conflict"), [(1.9, False), (2.1, True), (2.4, True)])
+def test_two_that_each_miss_by_more_than_the_tolerance_are_a_conflict(
+    apart: float, conflict: bool
+) -> None:
+    """They are met half way between, and the tolerance is half a degree."""
+    found = reasons(stick_body(), turn(HEAD, UP, 10.0), turn(HEAD, UP, 10.0 + 0.5 * apart))
+    assert found == ({1: "conflicts with `rotate !head ^up 10`"} if conflict else {})
+
+
+def reason_of_first(
+    *constraints: Constraint, moved: bool = True, held: tuple[str, ...] = (), miss: float = 40.0
+) -> str:
+    """Why the first constraint is missed by so many tolerances in the idle posture.
+
+    Args: moved: whether the search has moved every coordinate, or none. held: beginnings of
+        the names of coordinates that must not move.
+    """
+    rig = stick_body()
+    tasks = [Task(c, ("A",), Fraction(0), i) for i, c in enumerate(constraints)]
+    idle, names = rig.coordinates.idle, rig.coordinates.names
+    fixed = frozenset(v for v, name in enumerate(names) if name.startswith(held))
+    moment = Moment(rig, tasks, Side.RIGHT, idle, idle, SolveOptions(fixed=fixed))
+    free = frozenset(range(len(names))) if moved else frozenset[int]()
+    return Diagnosis(moment.body, tasks, moment.footprints, idle, free).reason(0, miss, False)
+
+
+def test_what_could_be_met_is_told_by_what_the_search_left_still() -> None:
+    head = turn(HEAD, UP, 20)
+    assert reason_of_first(head, moved=False) == "could be met if the head moved too"
+    assert reason_of_first(head, moved=True) == "the search found no posture that meets it"
+
+
+@pytest.mark.parametrize(
+    ("other", "held", "shared"),
+    [
+        (turn(HEAD, UP, 0.0), (), True),
+        (turn(HEAD, UP, 0.0), ("head",), True),
+        (BENT_INDEX, (), False),
+    ],
+)
+def test_others_are_told_of_if_they_share_joints_held_or_not(
+    other: Constraint, held: tuple[str, ...], shared: bool
+) -> None:
+    told = reason_of_first(Look(Vec(0.1, 0.0, 1.0)), other, held=held)
+    others = " and the others" if shared else ""
+    assert told == f"the search found no posture that meets it{others}"
+
+
+def test_a_rival_that_is_out_of_reach_by_itself_does_not_exclude_what_is_in_reach() -> None:
+    """The head turns by 30° of 50°, and the eyes back by as much."""
+    assert "conflicts" not in reason_of_first(Look(FORWARD), turn(HEAD, UP, 50))
+
+
+def test_the_body_is_named_also_for_a_small_part_of_a_miss_if_nothing_else_is_known() -> None:
+    inside, held = Place(Site("PA", Side.RIGHT), WorldPoint(0.0, 1.2, 0.0)), ("back", "clav")
+    told = reason_of_first(inside, held=held, miss=1e4)
+    assert told.startswith("the body is in the way: ")
+    assert told == reason_of_first(inside, held=held, miss=1.0)

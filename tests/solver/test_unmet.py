@@ -83,6 +83,7 @@ def test_near_the_end_of_all_bones_a_limit_stops_a_place_and_beyond_it_nothing_w
         carriers.append(node)
     length = np.linalg.norm(site.position) + sum(np.linalg.norm(chain.offsets[n]) for n in carriers)
     aside, up = -0.18, 0.45
+    scale = Evaluator(RIG, Side.RIGHT).scale
 
     def forward(share: float) -> WorldPoint:
         """A point in front at a share of the straight body's length from its root."""
@@ -92,6 +93,8 @@ def test_near_the_end_of_all_bones_a_limit_stops_a_place_and_beyond_it_nothing_w
     for share in (0.905, 0.915, 0.925):
         report = run(Place(Site("PA", S), forward(share)))
         assert reason(report).startswith("the lower back cannot bend further: it is at ")
+    beside = Place(Site("PA", S), forward(0.915 + 0.1 * scale / float(length)), 0.1)
+    assert reason(run(beside)).startswith("the lower back cannot bend further: it is at ")
     for share in (1.005, 1.05):
         report = run(Place(Site("PA", S), forward(share)))
         miss = 1000 * report.constraints[0].residual
@@ -106,6 +109,12 @@ def test_a_morph_beyond_its_limit_is_named() -> None:
         "it is at 90° of flexion and needs 24.0° more"
     )
     assert value(report, "index_R_2.flexion") == pytest.approx(90)
+    back = run(Morph("index_bend", S, -0.8))
+    assert reason(back) == (
+        "the first joint of the right index finger cannot bend further: "
+        "it is at 45° of extension and needs 24.0° more"
+    )
+    assert value(back, "index_R_1.flexion") == pytest.approx(-45)
 
 
 def test_of_two_that_exclude_each_other_the_earlier_wins() -> None:

@@ -270,6 +270,13 @@ def test_fingers_are_told_by_their_numbers_if_there_are_four_at_least(
     assert found.digits("L") == found.digits("R") == digits
 
 
+def test_a_body_of_numbered_fingers_without_legs_keeps_them() -> None:
+    """Most of its joints begin with the word finger then, which says something all the same."""
+    found = _only(make_body(FAMILIES["makehuman"], eyes=False), "leg foot", "root")
+    assert found.family == "names"
+    assert found.digits("L") == found.digits("R") == ("thumb", "index", "middle", "ring", "little")
+
+
 def test_a_sixth_finger_is_no_digit() -> None:
     numbered = make_body(FAMILIES["makehuman"], eyes=False)
     hand = numbered.names[numbered.parents[numbered.names.index("finger1-1.L")]]

@@ -118,7 +118,7 @@ def _common(words: Sequence[str], joints: int) -> str | None:
     if not words or joints < FEW:
         return None
     word, count = Counter(words).most_common(1)[0]
-    known = word in _SIDES or word in _KIND_OF or word in DIGITS or word in _ORDINALS
+    known = word in {*_SIDES, *_KIND_OF, *DIGITS, *_ORDINALS, *_FILLERS}
     return word if count >= (NEARLY_ALL if known else COMMON) * joints else None
 
 

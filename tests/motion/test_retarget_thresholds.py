@@ -20,7 +20,7 @@ from azee.clip.retarget_source import (
     measure_recording,
 )
 from azee_rig.rig import Rig
-from azee_rig.rotation import rotation_vectors
+from azee_rig.rotation import about_axis, rotation_vectors
 
 Floats = NDArray[np.float64]
 
@@ -228,6 +228,40 @@ def test_the_body_itself_is_found_again_from_far_away(signer: Rig) -> None:
     assert np.degrees(palms).max() < 0.03
     made = retarget(source, signer)
     assert made.wrist_m.max() < 0.0002
+
+
+def test_where_a_step_goes_too_far_shorter_ones_are_tried(signer: Rig) -> None:
+    """From arms that hang to arms that are raised aside: not every step on the way gains."""
+    source = measure_clip(posed(signer, 1, {
+        "clav_{}.elevation": 23, "arm_{}.flexion": 7, "arm_{}.abduction": 109,
+        "arm_{}.rotation": 71, "f_arm_{}.flexion": 42, "palm_{}.deviation": 14,
+    }), signer)  # fmt: skip
+    idle = np.array(signer.coordinates.idle)[None]
+    arms = retargeting._Arms(signer, source, idle)
+    wrists, _ = arms.off(arms.solved(idle, idle))
+    assert wrists.max() < 0.02
+
+
+def test_errors_are_told_of_each_hand(signer: Rig) -> None:
+    """The left wrist is 3 cm off, and the right palm by half a right angle."""
+    clip = posed(signer, 3, {"f_arm_{}.flexion": 60})
+    source = measure_clip(clip, signer)
+    moved, palms = source.wrists.copy(), source.palms.copy()
+    moved[:, 0, 1] += 0.03
+    palms[:, 1] = about_axis(0, np.radians(45.0)) @ palms[:, 1]
+    away = replace(source, wrists=moved, palms=palms)
+    wrists, turns = retargeting._Arms(signer, away, clip.coordinates).off(clip.coordinates)
+    np.testing.assert_allclose(wrists, np.tile([0.03, 0.0], (3, 1)), atol=1e-9)
+    np.testing.assert_allclose(np.degrees(turns), np.tile([0.0, 45.0], (3, 1)), atol=1e-5)
+
+
+def test_face_units_that_a_body_has_are_kept_with_their_weights(signer: Rig) -> None:
+    source = measure_clip(posed(signer, 2, {}), signer)
+    one, two = sorted(signer.units)[:2]
+    weights = np.array([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]])
+    made = retarget(replace(source, units=((one, "no unit of it", two), weights)), signer).clip
+    assert made.units == (one, two)
+    np.testing.assert_array_equal(made.unit_weights, weights[:, [0, 2]])
 
 
 @pytest.mark.parametrize(("gain", "changes"), [(3.7, False), (4.2, True)])

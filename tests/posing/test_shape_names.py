@@ -151,6 +151,22 @@ def test_a_shape_says_where_ten_joints_of_the_hand_are(signer: Rig) -> None:
     assert ":#nine" not in found
 
 
+def test_a_rule_that_must_be_told_something_is_no_shape(signer: Rig) -> None:
+    """Be it its side, which a rule that shapes a hand has of its own."""
+    text = ""
+    for name, default in (("told", "'nodefault"), ("untold", "^s")):
+        text += (
+            f"def {name}\n    azop\n        'side\n        {default}\n        'apart\n        0\n"
+        )
+        text += "        cstr\n            :#fist('side = ^side)\n"
+        text += "            morph 'fingers_spread ^side ^apart\n"
+    program, body = load(Source("text.azee", text)), evaluator(signer, Side.RIGHT)
+    q = posture(program, body, ":#told('side = w)")
+    found = [shape.text for shape in shape_names(program, body, q, Side.WEAK)]
+    assert ":#untold('side = w)" in found
+    assert ":#told('side = w)" not in found
+
+
 def test_a_name_of_two_libraries_is_left_out_and_those_after_it_are_not(
     signer: Rig, tmp_path: Path
 ) -> None:

@@ -96,6 +96,7 @@ def test_a_clip_that_is_measured_has_the_same_figures_at_any_rate(signer: Rig) -
         clip = Clip(k.times_s + 0.5, k.q, (), k.unit_weights)
         again = Kinematics.of(clip, signer, zero_s=0.5)
         assert again.times_s[0] == pytest.approx(0.0)
+        assert Kinematics.of(clip, signer).times_s[0] == pytest.approx(0.5)
         speed = largest_wrist_speed(again, (), "transitional")
         assert speed is not None
         values.append(speed.value)

@@ -130,10 +130,31 @@ def test_what_is_kept_is_within_3_percent_5_degrees_and_3_mm(
 
 def test_of_each_digit_the_worse_of_both_hands_is_told(signer: Rig) -> None:
     one = np.array([0.0, 1e-3, 0.0])
-    tips = {"thumb_L": 4 * one, "index_L": 2 * one, "thumb_R": one, "index_R": 6 * one}
+    tips = {"thumb_L": 2 * one, "index_L": 4 * one, "thumb_R": one, "index_R": 6 * one}
     made = replace(as_it_was(still(signer)), tip_m=tips)
-    assert made.kept(signer).endswith("off in the palm by up to: thumb 4 mm, index 6 mm")
+    assert made.kept(signer).endswith("off in the palm by up to: thumb 2 mm, index 6 mm")
     assert replace(made, tip_m={}).kept(signer).endswith("; no finger is carried over")
+
+
+def test_the_report_tells_the_mean_and_the_most_that_each_part_is_off(signer: Rig) -> None:
+    off = np.array([[0.01, 0.0], [0.02, 0.4], [0.06, 0.2]])
+    made = Retargeted(still(signer), off, off[:, ::-1], {"index_L": off[:, 0]})
+    assert made.report(signer) == {
+        "rig": "signer",
+        "frames": 3,
+        "arm_m": signer.landmarks.arm_m,
+        "hands": {
+            "L": {
+                "wrist_m": {"mean": pytest.approx(0.03), "max": 0.06},
+                "palm_rad": {"mean": pytest.approx(0.2), "max": 0.4},
+            },
+            "R": {
+                "wrist_m": {"mean": pytest.approx(0.2), "max": 0.4},
+                "palm_rad": {"mean": pytest.approx(0.03), "max": 0.06},
+            },
+        },
+        "digits": {"index_L": {"tip_m": {"mean": pytest.approx(0.03), "max": 0.06}}},
+    }
 
 
 def test_a_clip_is_as_it_was_if_neither_hands_nor_fingers_are_off(signer: Rig) -> None:

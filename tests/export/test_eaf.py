@@ -16,6 +16,7 @@ from laws import examples
 
 from azee.cli.main import run
 from azee.export.formats.eaf import write_eaf
+from azee.export.formats.eaf_tiers import Note, score_tiers, track_tiers
 from azee.export.track_rows import Bar, Row
 from azee.score.interval import Interval
 from azee.score.score import Block, Call, Group, Key, Score
@@ -97,6 +98,24 @@ def test_tracks_are_tiers_by_part_of_the_body(score: Group, tmp_path: Path) -> N
     assert late["track head"] == [(500, 1500, "Z › a"), (1500, 2500, "Z › b")]
     assert late["track head 2"] == [(1000, 1001, "Z › c")]
     assert late["track right arm"] == [(500, 3500, "Z › d")]
+
+
+def test_where_nothing_leads_in_the_tiers_begin_with_the_score(score: Group) -> None:
+    assert score_tiers(score).notes == [Note("not-but", 0, 3000)]
+    bar = Bar(("Z", "a"), 0.0, 1.0, (), ("head.axial",))
+    (tier,) = track_tiers([Row("head", ((bar,),))])
+    assert tier.notes == [Note("Z › a", 0, 1000)]
+
+
+def test_what_ends_as_another_begins_is_on_its_tier(score: Group, tmp_path: Path) -> None:
+    def bar(name: str, start: float, end: float) -> Bar:
+        return Bar((name,), start, end, (), ())
+
+    row = Row("head", ((bar("late", 1, 2),), (bar("early", 0, 1),), (bar("both", 0.999, 1.001),)))
+    write_eaf(score, tmp_path / "a.eaf", (row,))
+    found = read(tmp_path / "a.eaf")
+    assert found["track head"] == [(0, 1000, "early"), (1000, 2000, "late")]
+    assert found["track head 2"] == [(999, 1001, "both")]
 
 
 @given(SCORES)

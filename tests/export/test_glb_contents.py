@@ -66,6 +66,7 @@ def test_the_skin_hangs_on_the_root_and_the_mesh_begins_without_any_unit(
 ) -> None:
     (skin,) = small.document["skins"]
     assert small.document["nodes"][skin["skeleton"]]["name"] == "root"
+    assert [node["skin"] for node in small.document["nodes"] if "mesh" in node] == [0]
     (mesh,) = small.document["meshes"]
     assert mesh["weights"] == [0.0] * len(SMALL.mesh.units)
     assert mesh["extras"]["targetNames"] == list(SMALL.mesh.units)

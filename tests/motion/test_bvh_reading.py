@@ -122,7 +122,7 @@ def test_what_had_to_be_guessed_is_said(change: tuple[str, str], note: str) -> N
         (("1 Zrotation", "1 Zrotation CHANNELS 1 Xrotation"), "line 9: a second CHANNELS"),
         (("6 Xposition Y", "6 Yposition Y"), "line 13: a joint has one position twice"),
         (("Spine\n\t{", "Spine\n\t"), "line 8: `OFFSET` where `{` should stand"),
-        (("HIERARCHY", "<html>"), "`<html>` is not part"),
+        (("HIERARCHY", "<html>"), "line 1: `<html>` is not part"),
     ],
 )
 def test_a_damaged_file_has_one_clear_message(change: tuple[str, str], said: str) -> None:
@@ -289,6 +289,46 @@ def test_a_message_quotes_no_long_word(length: int) -> None:
     assert f"`{quoted}` is not a number" in str(refused.value)
 
 
+def test_a_message_quotes_forty_characters() -> None:
+    for word, quoted in (("x" * 40, "x" * 40), ("x" * 41, "x" * 40 + "…")):
+        with pytest.raises(BvhError, match=f"`{quoted}` is not a number"):
+            parse_bvh(FIGURE.replace("OFFSET 0 20 0", f"OFFSET 0 {word} 0"))
+
+
+@pytest.mark.parametrize("sign", ["", "-"])
+def test_no_number_is_larger_than_a_thousand_millions(sign: str) -> None:
+    large = FIGURE.replace("0 0 0 5 90", f"0 0 {sign}1e9 5 90")
+    large = large.replace("OFFSET 0 10 0", f"OFFSET 0 {sign}1e9 0")
+    assert parse_bvh(large, "mm").tips[2][1] == pytest.approx(float(f"{sign}1e6"))
+    for place in ("0 0 0 5 90", "OFFSET 0 10 0"):
+        text = FIGURE.replace(place, place.replace(" 0", f" {sign}1.0001e9", 1))
+        assert text != FIGURE
+        with pytest.raises(BvhError, match=f"`{sign}1.0001e9` is too large"):
+            parse_bvh(text)
+
+
+def test_a_joint_has_up_to_nine_channels() -> None:
+    """Three of place, three of turn and three of scale."""
+    nine = " ".join(f"{axis}{kind}" for kind in ("position", "rotation", "scale") for axis in "XYZ")
+    head, motion = FIGURE.split("MOTION")
+    rows = motion.replace("\n0 0 0 5 90 0", "\n5 90 0 0 0 0 1 1 1")
+    for written, refused in ((f"9 {nine}", False), (f"10 {nine} Xscale", True)):
+        channels = "6 Zrotation Xrotation Yrotation Xposition Yposition Zposition"
+        text = f"{head.replace(channels, written)}MOTION{rows}"
+        if refused:
+            with pytest.raises(BvhError, match="line 5: `10` is no number of channels"):
+                parse_bvh(text)
+        else:
+            np.testing.assert_array_equal(
+                parse_bvh(text).frames()[0], parse_bvh(FIGURE).frames()[0]
+            )
+
+
+def test_a_joint_without_an_offset_stands_where_its_parent_does() -> None:
+    text = FIGURE.replace("\t\tOFFSET 0 130 0\n", "")
+    assert parse_bvh(text, "cm").skeleton.offsets[1].tolist() == [0.0, 0.0, 0.0]
+
+
 def scaled(text: str, factor: float) -> str:
     """The figure with other lengths, in the hierarchy and in its positions."""
     head, motion = text.split("MOTION")
@@ -364,6 +404,23 @@ def test_joints_of_one_name_are_told_apart() -> None:
     assert "2 joints are called `Hips`" in read.notes[0]
     text = text.replace("ROOT Hips", "ROOT Hips_2").replace("Bip01 Spine", "Hips")
     assert parse_bvh(text).skeleton.names == ("Hips_2", "Hips", "Hips_3")
+
+
+@pytest.mark.parametrize(
+    ("names", "told_apart", "said"),
+    [
+        ("a b a", "a b a_2", "2 joints are called `a`: they"),
+        ("a b a b", "a b a_2 b_2", "2 joints are called `a` and 1 further names: they"),
+        ("c b a b a b c", "c b a b_2 a_2 b_3 c_2", "called `c` and 2 further names: they"),
+        ("a_2 a a a", "a_2 a a_3 a_4", "3 joints are called `a`: they"),
+    ],
+)
+def test_a_note_tells_how_many_names_stand_twice(names: str, told_apart: str, said: str) -> None:
+    joints = " } ".join(f"ROOT {n} {{ OFFSET 0 1 0 CHANNELS 1 Xrotation" for n in names.split())
+    rows = " ".join("0" for _ in names.split())
+    read = parse_bvh(f"HIERARCHY {joints} }}\nMOTION\nFrames: 1\nFrame Time: 1\n{rows}\n", "m")
+    assert " ".join(read.skeleton.names) == told_apart
+    assert said in read.notes[0]
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from azee.cli.main import run
 from azee.clip import retarget as retargeting
 from azee.clip.bvh import parse_bvh, read_bvh
 from azee.clip.clip import Clip
-from azee.clip.retarget import Retargeted, retarget, smoothed
+from azee.clip.retarget import Retargeted, as_it_was, retarget, smoothed
 from azee.clip.retarget_source import RetargetError, measure_clip, measure_recording
 from azee.clips import open_clip
 from azee.export.formats.bvh import write_bvh
@@ -99,10 +99,16 @@ def test_a_clip_command_carries_another_skeletons_motion_over(
     assert f"carried over to `signer`: hands are where they were in all {FRAMES} frames" in said
 
 
+def still(signer: Rig, frames: int = 3) -> Clip:
+    q = np.tile(signer.coordinates.idle, (frames, 1))
+    return Clip(np.arange(frames) / 30, q, (), np.zeros((frames, 0)))
+
+
 @pytest.mark.parametrize(
     ("share", "palm_deg", "tip_mm", "hands", "tips"),
     [
         (0.029, 4.9, 2.9, "in all 3 frames", "within 3 mm"),
+        (0.029, 5.0, 3.0, "in all 3 frames", "within 3 mm"),
         (0.031, 4.9, 2.9, "in 2 of 3 frames; .* to 3 % of its arm's length and 5° off", "within"),
         (0.029, 5.1, 2.9, "in 2 of 3 frames", "within 3 mm"),
         (0.2, 20.0, 3.1, "up to 20 % of its arm's length and 20° off", "up to: index 3 mm"),
@@ -111,16 +117,56 @@ def test_a_clip_command_carries_another_skeletons_motion_over(
 def test_what_is_kept_is_within_3_percent_5_degrees_and_3_mm(
     signer: Rig, share: float, palm_deg: float, tip_mm: float, hands: str, tips: str
 ) -> None:
-    clip = Clip(np.arange(3) / 30, np.tile(signer.coordinates.idle, (3, 1)), (), np.zeros((3, 0)))
     off = np.zeros((3, 2))
     off[1, 0] = 1.0
     made = Retargeted(
-        clip,
+        still(signer),
         off * share * signer.landmarks.arm_m,
         off * np.radians(palm_deg),
         {"index_L": off[:, 0] * tip_mm / 1e3},
     )
     assert re.search(f"{hands}.*{tips}", made.kept(signer), re.DOTALL)
+
+
+def test_of_each_digit_the_worse_of_both_hands_is_told(signer: Rig) -> None:
+    one = np.array([0.0, 1e-3, 0.0])
+    tips = {"thumb_L": 2 * one, "index_L": 4 * one, "thumb_R": one, "index_R": 6 * one}
+    made = replace(as_it_was(still(signer)), tip_m=tips)
+    assert made.kept(signer).endswith("off in the palm by up to: thumb 2 mm, index 6 mm")
+    assert replace(made, tip_m={}).kept(signer).endswith("; no finger is carried over")
+
+
+def test_the_report_tells_the_mean_and_the_most_that_each_part_is_off(signer: Rig) -> None:
+    off = np.array([[0.01, 0.0], [0.02, 0.4], [0.06, 0.2]])
+    made = Retargeted(still(signer), off, off[:, ::-1], {"index_L": off[:, 0]})
+    assert made.report(signer) == {
+        "rig": "signer",
+        "frames": 3,
+        "arm_m": signer.landmarks.arm_m,
+        "hands": {
+            "L": {
+                "wrist_m": {"mean": pytest.approx(0.03), "max": 0.06},
+                "palm_rad": {"mean": pytest.approx(0.2), "max": 0.4},
+            },
+            "R": {
+                "wrist_m": {"mean": pytest.approx(0.2), "max": 0.4},
+                "palm_rad": {"mean": pytest.approx(0.03), "max": 0.06},
+            },
+        },
+        "digits": {"index_L": {"tip_m": {"mean": pytest.approx(0.03), "max": 0.06}}},
+    }
+
+
+def test_a_clip_is_as_it_was_if_neither_hands_nor_fingers_are_off(signer: Rig) -> None:
+    made = as_it_was(still(signer))
+    assert made.is_as_it_was
+    assert made.kept(signer).startswith("hands are where they were in all 3 frames")
+    off = np.array([[0.0, 0.0], [0.0, 1e-4], [0.0, 0.0]])
+    tips = {**made.tip_m, "ring_L": off[:, 1]}
+    for change in (
+        replace(made, wrist_m=off), replace(made, palm_rad=off), replace(made, tip_m=tips)
+    ):  # fmt: skip
+        assert not change.is_as_it_was
 
 
 def test_between_ways_the_cheapest_of_all_paths_is_taken(signer: Rig, clip: Clip) -> None:

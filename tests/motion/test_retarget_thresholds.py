@@ -20,7 +20,7 @@ from azee.clip.retarget_source import (
     measure_recording,
 )
 from azee_rig.rig import Rig
-from azee_rig.rotation import rotation_vectors
+from azee_rig.rotation import about_axis, rotation_vectors
 
 Floats = NDArray[np.float64]
 
@@ -142,7 +142,9 @@ def test_shoulders_above_each_other_tell_no_left(across_share: float, refused: b
         assert measure_recording(parse_bvh(text)).arm_m > 0.0
 
 
-@pytest.mark.parametrize(("speed", "spread"), [(24.5, False), (25.5, True)])
+@pytest.mark.parametrize(
+    ("speed", "spread"), [(24.5, False), (25.5, True), (-24.5, False), (-25.5, True)]
+)
 def test_turns_faster_than_25_rad_a_second_are_spread(speed: float, spread: bool) -> None:
     """Those alone, and no farther than 0.15 s from them is anything smoothed wholly."""
     times = np.arange(101) / 100
@@ -152,6 +154,14 @@ def test_turns_faster_than_25_rad_a_second_are_spread(speed: float, spread: bool
     found = eased(q, times)
     assert (found[:, 1] == q[:, 1]).all()
     assert (np.abs(found[:, 0] - q[:, 0]).max() > 0.01) == spread
+
+
+def test_a_turn_is_spread_over_as_few_as_three_frames() -> None:
+    """The first and the last stay as they are, so that of two frames there is nothing to spread."""
+    q = np.array([[0.0], [0.0], [0.9]])
+    times = np.arange(3) / 30
+    np.testing.assert_allclose(eased(q, times), [[0.0], [0.3], [0.9]])
+    np.testing.assert_array_equal(eased(q[1:], times[1:]), q[1:])
 
 
 def test_smoothing_takes_frames_up_to_0_15_s_away_and_fewer_near_an_end() -> None:
@@ -228,6 +238,75 @@ def test_the_body_itself_is_found_again_from_far_away(signer: Rig) -> None:
     assert np.degrees(palms).max() < 0.03
     made = retarget(source, signer)
     assert made.wrist_m.max() < 0.0002
+
+
+FAR: dict[str, dict[str, float]] = {
+    "aside": {
+        "clav_{}.elevation": 23, "arm_{}.flexion": 7, "arm_{}.abduction": 109,
+        "arm_{}.rotation": 71, "f_arm_{}.flexion": 42, "palm_{}.deviation": 14,
+    },
+    "bent": {
+        "clav_{}.elevation": 21, "clav_{}.protraction": -10, "arm_{}.flexion": 10,
+        "arm_{}.abduction": 110, "arm_{}.rotation": 3, "f_arm_{}.flexion": 122,
+        "f_arm_{}.pronation": 14, "palm_{}.flexion": 40, "palm_{}.deviation": -19,
+    },
+}  # fmt: skip
+"""Degrees of arms that are raised, so that not every step on the way from rest gains."""
+
+
+@pytest.mark.parametrize("arm", FAR)
+@pytest.mark.parametrize("sides", ["LR", "R"])
+def test_where_a_step_goes_too_far_shorter_ones_are_tried(
+    signer: Rig, arm: str, sides: str
+) -> None:
+    """Of one arm too, while the other is at its place from the start."""
+    clip = posed(signer, 1, FAR[arm])
+    idle = np.array(signer.coordinates.idle)[None]
+    q = idle.copy()
+    for side in sides:
+        columns = [signer.coordinates.index[name.format(S=side)] for name in retargeting.ARM]
+        q[:, columns] = clip.coordinates[:, columns]
+    arms = retargeting._Arms(signer, measure_clip(replace(clip, coordinates=q), signer), idle)
+    wrists, _ = arms.off(arms.solved(idle, idle))
+    assert wrists.max() < 0.02
+
+
+def test_forearms_are_tried_turned_out_and_in(signer: Rig) -> None:
+    clip = posed(signer, 2, {"f_arm_{}.flexion": 60})
+    arms = retargeting._Arms(signer, measure_clip(clip, signer), clip.coordinates)
+    given, *others = arms.starts(clip.coordinates)
+    np.testing.assert_array_equal(given, clip.coordinates)
+    turned = arms.columns[:, retargeting.PRONATION]
+    lower, upper = signer.coordinates.lower[turned], signer.coordinates.upper[turned]
+    shares = [(start[:, turned] - lower) / (upper - lower) for start in others]
+    assert len(shares) == 2
+    assert ((shares[0] > 0.1) & (shares[0] < 0.3)).all()
+    assert ((shares[1] > 0.7) & (shares[1] < 0.9)).all()
+    for start in others:
+        rest = np.delete(start, turned, axis=1)
+        np.testing.assert_array_equal(rest, np.delete(clip.coordinates, turned, axis=1))
+
+
+def test_errors_are_told_of_each_hand(signer: Rig) -> None:
+    """The left wrist is 3 cm off, and the right palm by half a right angle."""
+    clip = posed(signer, 3, {"f_arm_{}.flexion": 60})
+    source = measure_clip(clip, signer)
+    moved, palms = source.wrists.copy(), source.palms.copy()
+    moved[:, 0, 1] += 0.03
+    palms[:, 1] = about_axis(0, np.radians(45.0)) @ palms[:, 1]
+    away = replace(source, wrists=moved, palms=palms)
+    wrists, turns = retargeting._Arms(signer, away, clip.coordinates).off(clip.coordinates)
+    np.testing.assert_allclose(wrists, np.tile([0.03, 0.0], (3, 1)), atol=1e-9)
+    np.testing.assert_allclose(np.degrees(turns), np.tile([0.0, 45.0], (3, 1)), atol=1e-5)
+
+
+def test_face_units_that_a_body_has_are_kept_with_their_weights(signer: Rig) -> None:
+    source = measure_clip(posed(signer, 2, {}), signer)
+    one, two = sorted(signer.units)[:2]
+    weights = np.array([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]])
+    made = retarget(replace(source, units=((one, "no unit of it", two), weights)), signer).clip
+    assert made.units == (one, two)
+    np.testing.assert_array_equal(made.unit_weights, weights[:, [0, 2]])
 
 
 @pytest.mark.parametrize(("gain", "changes"), [(3.7, False), (4.2, True)])

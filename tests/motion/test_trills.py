@@ -17,7 +17,7 @@ from azee.animation import animate
 from azee.compilation import score_of
 from azee.lang.program import load
 from azee.lang.reflection import MIRROR
-from azee.motion.overlay.trill import FADE_S, Oscillation
+from azee.motion.overlay.trill import FADE_S, Oscillation, add_trills
 from azee.motion.overlay.trill import oscillation as oscillation_on_body
 from azee.motion.overlay.turning import angular_velocity
 from azee.motion.tasks.requirement import Requirement
@@ -151,3 +151,137 @@ def test_the_joint_before_helps_where_a_bones_own_cannot_turn(
     assert moved <= {"palm_R.flexion", "palm_R.deviation"} or helped
     assert ("f_arm_R.pronation" in moved) == helped
     assert found.turnable == pytest.approx(1.0 if helped else math.cos(off), abs=0.02)
+
+
+def test_a_trill_fades_in_and_out_in_a_tenth_of_a_second() -> None:
+    whole = oscillation(Trill(PALM, UP, 2.0, 0.3), Interval(Fraction(1), Fraction(2)))
+    faded = whole.envelope(np.array([1.0, 1.05, 1.1, 1.5, 1.9, 1.95, 2.0]))
+    np.testing.assert_allclose(faded, [0, 0.5, 1, 1, 1, 0.5, 0], atol=1e-9)
+
+
+def test_a_trill_without_length_moves_nothing() -> None:
+    instant = oscillation(Trill(PALM, UP, 2.0, 0.3), Interval(Fraction(1), Fraction(1)))
+    assert not instant.envelope(np.array([0.9, 1.0, 1.1])).any()
+
+
+@pytest.mark.parametrize("cycles", [None, 5.0])
+def test_a_trill_is_the_same_whenever_its_block_begins(cycles: float | None) -> None:
+    trill = Trill(PALM, UP, 4.0, math.radians(20), cycles=cycles)
+    times = np.arange(0, 1001) / 1000
+    late = oscillation(trill, Interval(Fraction("3.07"), Fraction("4.07"))).angles(3.07 + times)
+    np.testing.assert_allclose(np.degrees(late), angles(trill), atol=1e-9)
+
+
+WRIST, FOREARM = "palm_R.flexion", "f_arm_R.pronation"
+
+
+def trilled(
+    signer: Rig,
+    starts_deg: dict[str, float],
+    shares: dict[str, float],
+    amp_deg: float,
+    back_deg: float,
+    turnable: float = 1.0,
+) -> tuple[dict[str, NDArray[np.float64]], float]:
+    """Trill, from 1 s to 3 s, coordinates that are still; tell them, and what it falls short by.
+
+    starts_deg: where coordinates are. shares: how much of the angle each of them turns.
+    """
+    coordinates = signer.coordinates
+    direction = np.zeros(len(coordinates))
+    for name, share in shares.items():
+        direction[coordinates.index[name]] = share
+    trill = Trill(PALM, UP, 5.0, math.radians(amp_deg), math.radians(back_deg))
+    task = oscillation(trill, Interval(Fraction(1), Fraction(3))).task
+    times = np.arange(0, 4001) / 1000
+    q = np.tile(coordinates.idle, (len(times), 1))
+    for name, start_deg in starts_deg.items():
+        q[:, coordinates.index[name]] = math.radians(start_deg)
+    found, short = add_trills(q, times, [Oscillation(task, direction, turnable)], coordinates)
+    np.testing.assert_array_equal(found[:, direction == 0], q[:, direction == 0])
+    outside = (times < 1.0) | (times > 3.0)
+    np.testing.assert_array_equal(found[outside], q[outside])
+    return (
+        {name: np.degrees(found[:, coordinates.index[name]]) for name in shares},
+        math.degrees(short[task.rank]),
+    )
+
+
+def test_a_trill_turns_each_coordinate_by_its_share_while_it_lasts(signer: Rig) -> None:
+    shares = {WRIST: 1.0, FOREARM: -0.5}
+    found, short_deg = trilled(signer, {WRIST: 10.0, FOREARM: 20.0}, shares, 20.0, 12.0)
+    wrist, forearm = found[WRIST] - 10.0, found[FOREARM] - 20.0
+    np.testing.assert_allclose([wrist.max(), wrist.min()], [20.0, -12.0], atol=1e-6)
+    np.testing.assert_allclose(forearm, -0.5 * wrist, atol=1e-9)
+    assert short_deg == 0.0
+
+
+@pytest.mark.parametrize("upper", [True, False])
+@pytest.mark.parametrize(
+    ("room_deg", "half_deg", "moved_deg", "short_deg"),
+    [(16.0, 20.0, 4.0, 0.0), (14.0, 20.0, 5.0, 1.0), (0.0, 4.0, 2.0, 2.0)],
+)
+def test_the_middle_of_a_trill_moves_from_a_limit_by_5_degrees_or_a_quarter_of_the_swing(
+    signer: Rig, upper: bool, room_deg: float, half_deg: float, moved_deg: float, short_deg: float
+) -> None:
+    """What would still pass the limit is clamped: the trill falls short by it."""
+    v = signer.coordinates.index[WRIST]
+    limits = signer.coordinates.upper if upper else signer.coordinates.lower
+    limit_deg, sign = math.degrees(limits[v]), 1.0 if upper else -1.0
+    starts = {WRIST: limit_deg - sign * room_deg}
+    found, off_deg = trilled(signer, starts, {WRIST: 1.0}, half_deg, half_deg)
+    wrist = sign * (found[WRIST] - limit_deg)
+    assert wrist.max() == pytest.approx(0.0, abs=1e-6)
+    assert wrist.min() == pytest.approx(-room_deg - moved_deg - half_deg, abs=1e-6)
+    assert off_deg == pytest.approx(short_deg, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("amp_deg", "back_deg"), [(30.0, 10.0), (10.0, 30.0), (-30.0, 10.0), (10.0, -30.0)]
+)
+def test_a_trill_falls_short_by_what_no_joint_can_turn(
+    signer: Rig, amp_deg: float, back_deg: float
+) -> None:
+    """Of its wider end, to whichever side that is."""
+    _, short_deg = trilled(signer, {}, {WRIST: 1.0}, amp_deg, back_deg, turnable=0.8)
+    assert short_deg == pytest.approx(0.2 * 30.0)
+
+
+def on_body(signer: Rig, bone: Bone, axis: Vec) -> tuple[set[str], float]:
+    """Coordinates that a trill of the idle body turns, and the share of its axis that they can."""
+    trill = Trill(bone, axis, 4.0, math.radians(10.0))
+    task = oscillation(trill, Interval(Fraction(0), Fraction(1))).task
+    q = signer.coordinates.idle
+    found = oscillation_on_body(task, q, Evaluator(signer, Side.RIGHT))
+    turned = {signer.coordinates.names[v] for v in np.flatnonzero(np.abs(found.direction) > 1e-6)}
+    return turned, found.turnable
+
+
+def test_about_an_axis_without_direction_nothing_turns(signer: Rig) -> None:
+    assert on_body(signer, PALM, Vec(0.0, 0.0, 0.0)) == (set(), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("axis", "turned", "share"),
+    [
+        (Vec(1.0, 0.0, 0.0), {"thumb_R_3.flexion"}, 1.0),
+        (Vec(1.0, 0.0, 1.0), {"thumb_R_3.flexion"}, math.sqrt(0.5)),
+        (Vec(0.0, 0.0, 1.0), set(), 0.0),
+    ],
+)
+def test_a_joint_helps_only_where_it_turns_what_the_bones_own_cannot(
+    signer: Rig, axis: Vec, turned: set[str], share: float
+) -> None:
+    """Both last joints of the thumb bend about one axis; the first one is too far away to help."""
+    found, turnable = on_body(signer, Bone("thumb", Side.STRONG, 3), axis)
+    assert found == turned
+    assert turnable == pytest.approx(share, abs=1e-6)
+
+
+def test_the_joint_before_helps_about_all_its_axes(signer: Rig) -> None:
+    """A palm about its own length: the idle forearm is not quite in line with it."""
+    turned, turnable = on_body(signer, PALM, UP)
+    assert turned == {
+        "palm_R.flexion", "palm_R.deviation", "f_arm_R.flexion", "f_arm_R.pronation",
+    }  # fmt: skip
+    assert turnable == pytest.approx(1.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -23,6 +24,7 @@ from azee.quality.joints import (
     longest_stillness_s,
     unasked_turns,
 )
+from azee.quality.kinematics import angle_deg
 from azee.quality.symmetry import elbow_asymmetry_cm
 from azee_rig.rig import Rig
 from azee_solver.constraint import BoneAxis, LookAt, Orient, Relation, Rotate
@@ -337,3 +339,24 @@ def test_a_trunk_turned_by_five_degrees_from_its_mirror_image_is_turned(
     shifted = span(0.0, 2.0, limb="trunk", constraint=LEVEL)
     assert elbow_asymmetry_cm(k, both) is not None
     assert (elbow_asymmetry_cm(k, [*both, shifted]) is not None) == symmetric
+
+
+def test_from_the_front_the_nose_is_seen_or_else_the_joint_of_the_head(signer: Rig) -> None:
+    k = drawn(signer, 0.1, {"head.axial": moves(20.0, 0.0, 0.1)})
+    joints = [k.joint(bone)[:, :2] for bone in ("arm_L", "arm_R", "palm_L", "palm_R")]
+    nose = signer.sites["NO"].point(k.frames)[:, :2]
+    assert np.ptp(nose, axis=0).max() > 0.01
+    np.testing.assert_array_equal(k.frontal, np.stack([*joints, nose], axis=1))
+    sites = {name: site for name, site in signer.sites.items() if name != "NO"}
+    without = replace(k, rig=replace(signer, sites=sites))
+    head = k.joint("head")[:, :2]
+    np.testing.assert_array_equal(without.frontal, np.stack([*joints, head], axis=1))
+
+
+def test_angles_of_no_turn_and_of_a_half_turn_are_numbers() -> None:
+    """Rounding takes the cosine of some of them beyond ±1."""
+    axes = np.random.default_rng(1).normal(size=(200, 3))
+    axes /= np.linalg.norm(axes, axis=-1, keepdims=True)
+    half = 2.0 * axes[:, :, None] * axes[:, None, :] - np.eye(3)
+    np.testing.assert_allclose(angle_deg(half), 180.0, atol=1e-5)
+    np.testing.assert_allclose(angle_deg(half @ np.swapaxes(half, -1, -2)), 0.0, atol=1e-5)

@@ -64,6 +64,17 @@ def test_without_rules_the_whole_is_a_sign_and_without_hands_there_is_none() -> 
     assert signs_per_s(()) is None
 
 
+@pytest.mark.parametrize(
+    ("times_s", "rate"),
+    [(((1.0, 2.0), (2.5, 4.5)), 2 / 3.5), (((1.0, 1.05),), 20.0), (((1.0, 1.0),), None)],
+)
+def test_signs_are_counted_from_the_start_of_the_first_to_the_end_of_the_last(
+    times_s: tuple[tuple[float, float], ...], rate: float | None
+) -> None:
+    found = signs_per_s([Sign("a", start, end) for start, end in times_s])
+    assert found == (None if rate is None else pytest.approx(rate))
+
+
 def lids(signer: Rig, *closures: tuple[float, float], seconds: float = 6.0) -> Kinematics:
     """Lids that are down from one time to another."""
     k = drawn(signer, seconds)
@@ -95,6 +106,34 @@ def test_a_blink_is_at_a_boundary_within_150_milliseconds(
     begin = TWO[0].start_s + late_s
     found = blinks(lids(signer, (begin, begin + 0.1)), TWO)
     assert found.at_boundaries_share == near
+
+
+@pytest.mark.parametrize(("frames", "found"), [(48, 1), (49, 0)])
+def test_a_blink_takes_at_most_four_tenths_of_a_second(
+    signer: Rig, frames: int, found: int
+) -> None:
+    """That is 48 of 120 frames a second."""
+    assert len(blinks(lids(signer, (1.0, 1.0 + frames / 120)), TWO).times_s) == found
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.5, 0), (0.51, 1)])
+@pytest.mark.parametrize("whole", [1.0, 0.8])
+def test_lids_that_are_down_by_more_than_half_of_a_blink_are_closed(
+    signer: Rig, share: float, whole: float, found: int
+) -> None:
+    """Whatever weight of its units a blink is."""
+    k = lids(signer, (1.0, 1.2))
+    blink = {"AU43": dict.fromkeys(k.units, whole)}
+    rig = replace(signer, face_morphs={**signer.face_morphs, **blink}, lids={})
+    down = replace(k, rig=rig, unit_weights=share * whole * k.unit_weights)
+    assert len(blinks(down, TWO).times_s) == found
+
+
+def test_a_blink_is_when_the_lids_are_lowest(signer: Rig) -> None:
+    k = lids(signer)
+    down = np.clip(1.0 - np.abs(k.times_s - 1.1) / 0.15, 0.0, 1.0)
+    found = blinks(replace(k, unit_weights=k.unit_weights + down[:, None]), TWO)
+    assert found.times_s == pytest.approx((1.1,))
 
 
 def test_closed_eyes_and_lids_that_follow_the_eyes_do_not_blink(signer: Rig) -> None:

@@ -270,6 +270,16 @@ def test_fingers_are_told_by_their_numbers_if_there_are_four_at_least(
     assert found.digits("L") == found.digits("R") == digits
 
 
+@pytest.mark.parametrize("root", ["LeftHand", "LeftForeArm", "LeftShoulder"])
+def test_a_hand_alone_is_not_taken_for_a_figure_with_fingers_as_limbs(
+    body: Body, root: str
+) -> None:
+    found = _only(body, "Leg Foot", root)
+    assert found.family == "names"
+    assert "head" in found.lacking
+    assert "palm_R" in found.lacking
+
+
 def test_a_body_of_numbered_fingers_without_legs_keeps_them() -> None:
     """Most of its joints begin with the word finger then, which says something all the same."""
     found = _only(make_body(FAMILIES["makehuman"], eyes=False), "leg foot", "root")

@@ -23,6 +23,9 @@ METACARPAL_AT = 0.45
 ONE_PLACE = 1e-3
 """Joints that are nearer, as a share of their distance from the wrist, are in one place."""
 FINGERS = DIGITS[1:]
+ABOVE_SHOULDERS = ("head", "neck", "spine", "eye", "")
+"""What the head of a figure may be called. One that is called a finger is part of a hand, which
+has the shape of a figure too."""
 
 
 def propose(
@@ -40,7 +43,7 @@ def propose(
         return _as(by_name, "VRM" if told else "names")
 
     seen = read_shape(tree, carried)
-    if seen is None:
+    if seen is None or readings[seen.head].kind not in ABOVE_SHOULDERS:
         return _as(by_name, "names")
     by_shape = _from_landmarks(tree, seen.readings(readings), seen.landmarks(), bare)
     better = len(by_shape.lacking) < len(by_name.lacking)

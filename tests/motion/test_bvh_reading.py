@@ -235,6 +235,8 @@ def test_where_only_carriers_slide_zero_alone_is_added(hips: str, added: bool) -
         ("1.0015e-6", 998.5, "998.5 frames a second"),
         ("8.3333e-12", 120.0, "120 frames a second"),
         ("7e-12", 30.0, "30 frames a second"),
+        ("900", 900.0, "900 frames a second"),
+        ("1099", 30.0, "30 frames a second"),
         ("1e7", 30.0, "30 frames a second"),
         ("-1", 30.0, "says no frame time"),
         ("nan", 30.0, "says no frame time"),

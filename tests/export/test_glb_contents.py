@@ -16,7 +16,7 @@ from small_rig import SMALL, SmallRig, tumbling
 
 from azee.clip.clip import Clip
 from azee.export.formats.glb import write_glb
-from azee.export.formats.gltf.document import Document
+from azee.export.formats.gltf.document import COMPONENT_TYPES, Document
 from azee_rig.mesh import BodyMesh
 from azee_rig.rig import Rig
 from azee_rig.skeleton import Skeleton
@@ -133,6 +133,25 @@ def test_bounds_count_the_zeros_of_rows_that_are_not_written(
     document.sparse_accessor(rows[-1] + 1, np.array(rows), values, bounds=True)
     (accessor,) = document.objects["accessors"]
     assert (accessor["min"], accessor["max"]) == (least, largest)
+
+
+@pytest.mark.parametrize(("count", "kind"), [(3, "uint16"), (70_000, "uint32")])
+def test_rows_are_counted_in_as_few_bytes_as_hold_them(count: int, kind: str) -> None:
+    document = Document("test")
+    document.sparse_accessor(count, np.array([0, count - 1]), np.ones((2, 3), np.float32))
+    (accessor,) = document.objects["accessors"]
+    indices = accessor["sparse"]["indices"]
+    assert indices["componentType"] == COMPONENT_TYPES[kind]
+    start = document.objects["bufferViews"][indices["bufferView"]]["byteOffset"]
+    assert np.frombuffer(document.buffer, kind, 2, start).tolist() == [0, count - 1]
+
+
+def test_a_single_row_of_zeros_is_written_out() -> None:
+    document = Document("test")
+    document.sparse_accessor(1, np.empty(0, np.intp), np.empty((0, 3), np.float32))
+    (accessor,) = document.objects["accessors"]
+    assert accessor["bufferView"] == 0
+    assert np.frombuffer(document.buffer, np.float32, 3).tolist() == [0.0, 0.0, 0.0]
 
 
 def test_every_view_begins_at_a_multiple_of_four_bytes() -> None:

@@ -72,7 +72,7 @@ SOFT = Stage(1e-3, 1e-3, 6, 0.1)
 WHOLE = Stage(1.0, 1.0, 14, 0.05)
 MET_SHARE = 0.7
 """What is still missed by more than this share of a tolerance is met more firmly at the end."""
-FIRM = Stage(8.0, 0.1, 8, 0.02)
+FIRM = Stage(4.0, 0.1, 6, 0.02)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 TOLERANCE = {"m": 1e-3, "rad": math.radians(0.5)}
 PATH_TOLERANCE_M = 2e-3
 """Of sites on paths and at moving targets, between keys."""
-SAME_S = 1e-9
+_SAME_S = 1e-9
 """Times that differ by no more than this are the same instant."""
 
 
@@ -106,14 +106,14 @@ class ResidualMonitor:
         if task.rank in self.paths:
             # Where a placement takes the site or leaves it, the placement holds it.
             motion = self.paths[task.rank].motion
-            first = float(motion.start) + (2 * SAME_S if motion.before is not None else 0.0)
-            last = float(motion.end) - (2 * SAME_S if motion.after is not None else 0.0)
-        last += SAME_S
+            first = float(motion.start) + (2 * _SAME_S if motion.before is not None else 0.0)
+            last = float(motion.end) - (2 * _SAME_S if motion.after is not None else 0.0)
+        last += _SAME_S
         early = self.early_ends.get(task.rank)
         if early is not None:
             # The end itself belongs to the block that starts there.
-            last = float(early.time) + SAME_S if enforced else last - 2 * SAME_S
-        start, stop = (int(i) for i in np.searchsorted(seconds, (first - SAME_S, last)))
+            last = float(early.time) + _SAME_S if enforced else last - 2 * _SAME_S
+        start, stop = (int(i) for i in np.searchsorted(seconds, (first - _SAME_S, last)))
         if start < stop or not len(seconds):
             return slice(start, max(start, stop))
         nearest = int(np.abs(seconds - (first + last) / 2).argmin())

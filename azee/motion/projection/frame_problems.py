@@ -10,21 +10,23 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from azee.motion.keys.residual_monitor import ResidualMonitor
 from azee.motion.keys.transpath import AnchoredPath
-from azee.motion.projection.nearness import in_frames, keys_beside
 from azee.motion.projection.refilled_targets import Moving, Numbers, OnPath, RefilledTargets
 from azee.motion.tasks.key_posture import KeyPosture
-from azee.motion.tasks.limbs import CARRIERS, is_finger, limb_of_coordinate
+from azee.motion.tasks.limbs import CARRIERS, TRUNK, is_finger, limb_of_coordinate
 from azee.motion.tasks.timed_task import TimedTask
 from azee_rig.chain import Frames
+from azee_rig.rig import Rig
 from azee_solver import kinematics
 from azee_solver.anatomy import anatomy
 from azee_solver.body import Body
+from azee_solver.broadphase import Collisions
 from azee_solver.constraint import Constraint, Morph, Place
 from azee_solver.geometry import SitePoint
 from azee_solver.options import SolveOptions
@@ -42,6 +44,8 @@ TOUCH_S = 0.15
 CARRIER_SHARE = 50.0
 """How many times more trunk and head cost than in a posture: keys have chosen where they are, and
 a chin does not come to meet a finger."""
+SWAY_M = 0.0015
+"""Added to the margin that arms and hands keep from the trunk."""
 ACCENT_SHARE = 0.6
 """Of its tolerance that an accent may be off at the cost of 1."""
 COMFORT = 0.1
@@ -168,13 +172,9 @@ class FrameProblems:
         for i, (start, stop) in near:
             for t in range(int(start), int(stop)):
                 touching[t].add(i)
-        keys_s = np.array([float(posture.time) for posture in self.postures])
-        beside = keys_beside(keys_s, seconds)
-        groups: dict[
-            tuple[frozenset[int], tuple[int, ...], frozenset[int], tuple[int, ...]], list[int]
-        ] = {}
+        groups: dict[tuple[frozenset[int], tuple[int, ...], frozenset[int]], list[int]] = {}
         for t in range(len(times)):
-            key = frozenset(held[t]), tuple(on[t]), frozenset(touching[t]), beside[t]
+            key = frozenset(held[t]), tuple(on[t]), frozenset(touching[t])
             groups.setdefault(key, []).append(t)
         return [
             (
@@ -182,11 +182,10 @@ class FrameProblems:
                     tuple(tasks[i] for i in sorted(some)),
                     tuple(paths[p] for p in along),
                     tuple(tasks[i].constraint for i in sorted(close)),
-                    tuple(self.postures[k].coordinates for k in keys),
                 ),
                 rows,
             )
-            for (some, along, close, keys), rows in groups.items()
+            for (some, along, close), rows in groups.items()
         ]  # fmt: skip
 
     def _rows(self, path: AnchoredPath, seconds: Array) -> tuple[int, int]:
@@ -220,7 +219,7 @@ class FrameProblems:
             sorted(free),
             tape,
             residuals.rows,
-            in_frames(rig, body.obstacles.for_problem(free, frozenset()), now.keys),
+            _farther(rig, body.obstacles.for_problem(free, frozenset())),
             Cost(np.array(idle), nothing, comfort, self.options.overlap),
         )
         return _Problem(now, tasks, residuals.runs, presets, yielding, program)
@@ -276,15 +275,11 @@ class FrameProblems:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _InForce:
-    """What holds in a frame: distinct tasks, paths in control, touches that are near in time.
-
-    keys: (V,) each, the key postures before and after it.
-    """
+    """What holds in a frame: distinct tasks, paths in control, touches that are near in time."""
 
     tasks: tuple[TimedTask, ...]
     paths: tuple[AnchoredPath, ...]
     touches: tuple[Constraint, ...]
-    keys: tuple[Array, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -301,6 +296,15 @@ class _Problem:
     presets: Mapping[int, float]
     yielding: Mapping[int, float]
     program: Program
+
+
+@lru_cache(maxsize=256)
+def _farther(rig: Rig, collisions: Collisions) -> Collisions:
+    """Keep what is kept away from the trunk a little farther away: bodies sway."""
+    of_trunk = np.array([name.startswith(TRUNK) for name in rig.capsules.names])
+    trunk = of_trunk[collisions.pairs].any(axis=1)
+    farther = np.where(trunk & (np.asarray(collisions.margin) > 0.0), SWAY_M, 0.0)
+    return Collisions(collisions.pairs, collisions.reach + farther, collisions.margin)
 
 
 def _has_rows(task: TimedTask) -> bool:

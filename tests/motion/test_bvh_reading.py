@@ -2,47 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from bvh_figure import FIGURE
 from hypothesis import given
 from hypothesis import strategies as st
 
-from azee.clip.bvh import UNITS_M, parse_bvh, read_bvh
+from azee.clip.bvh import parse_bvh, read_bvh
 from azee.clip.bvh_hierarchy import LONGEST_SHOWN, BvhError
 from azee.clip.bvh_motion import read_motion
 from azee.clip.clip import Clip
 from azee.export.formats.bvh import write_bvh
 from azee_rig.rig import Rig
-
-FIGURE = """HIERARCHY
-ROOT Hips
-{
-	OFFSET 0 90 0
-	CHANNELS 6 Zrotation Xrotation Yrotation Xposition Yposition Zposition
-	JOINT Bip01 Spine
-	{
-		OFFSET 0 130 0
-		CHANNELS 1 Zrotation
-		JOINT Hand
-		{
-			OFFSET 0 20 0
-			CHANNELS 6 Xposition Yposition Zposition Yrotation Xrotation Zrotation
-			End Site
-			{
-				OFFSET 0 10 0
-			}
-		}
-	}
-}
-MOTION
-Frames: 2
-Frame Time: 0.04
-0 0 0 5 90 0 0 0 20 0 0 0 0
-0 0 0 5 90 0 90 0 20 0 0 0 90
-"""
 
 
 def test_a_figure_with_joints_of_one_and_of_six_channels() -> None:
@@ -214,74 +187,6 @@ def test_where_only_carriers_slide_zero_alone_is_added(hips: str, added: bool) -
     assert any("added" in note for note in read.notes) == added
 
 
-@pytest.mark.parametrize(
-    ("written", "rate", "said"),
-    [
-        ("0.0083333", 120.0, None),
-        (".04167", 24.0, None),
-        ("2", 0.5, None),
-        ("5", 0.2, None),
-        ("1e-4", 1e4, None),
-        ("60", 60.0, "the frame time 60 is no seconds: 60 frames a second are taken"),
-        ("29.97", 29.97, "29.97 frames a second"),
-        ("55", 55.0, "55 frames a second"),
-        ("33.3333", 30.0, "30 frames a second"),
-        ("33", 30.3, "30.3 frames a second"),
-        ("8.3333", 120.0, "120 frames a second"),
-        ("16667", 60.0, "60 frames a second"),
-        ("3.33333e-5", 30.0, "30 frames a second"),
-        ("1e-8", 100.0, "100 frames a second"),
-        ("1e-6", 1000.0, "1000 frames a second"),
-        ("1.0015e-6", 998.5, "998.5 frames a second"),
-        ("8.3333e-12", 120.0, "120 frames a second"),
-        ("7e-12", 30.0, "30 frames a second"),
-        ("900", 900.0, "900 frames a second"),
-        ("1099", 30.0, "30 frames a second"),
-        ("1e7", 30.0, "30 frames a second"),
-        ("-1", 30.0, "says no frame time"),
-        ("nan", 30.0, "says no frame time"),
-    ],
-)
-def test_a_frame_time_that_is_no_seconds(written: str, rate: float, said: str | None) -> None:
-    read = parse_bvh(FIGURE.replace("0.04", written))
-    assert 1 / (read.times[1] - read.times[0]) == pytest.approx(rate, rel=2e-3)
-    notes = [note for note in read.notes if "frame" in note]
-    if said is None:
-        assert notes == []
-    else:
-        assert [said in note for note in notes] == [True]
-
-
-def test_units_of_length() -> None:
-    """Each is the likeliest for some figure; each can be said."""
-    for unit, metre in UNITS_M.items():
-        scale = 0.01 / metre
-        places = parse_bvh(scaled(FIGURE, scale)).frames()[0]
-        assert np.ptp(places[0, :, 1]) == pytest.approx(1.5, abs=1e-3), unit
-    for unit, metre in UNITS_M.items():
-        read = parse_bvh(FIGURE, unit)
-        assert read.skeleton.offsets[2, 1] == pytest.approx(20 * metre)
-        assert read.tips[2][1] == pytest.approx(10 * metre)
-        assert read.notes == ()
-    assert UNITS_M == {"m": 1, "cm": 0.01, "inch": 0.0254, "mm": 0.001, "dm": 0.1, "foot": 0.3048}
-
-
-@pytest.mark.parametrize(
-    ("height_m", "unit"),
-    [(0.99, "foot"), (1.01, "cm"), (2.29, "cm"), (2.31, "mm")],
-)
-def test_children_and_giants_are_people_up_to_a_point(height_m: float, unit: str) -> None:
-    """In centimetres: what is shorter than a child, or taller than anybody, has another unit."""
-    (said,) = (note for note in parse_bvh(scaled(FIGURE, 1.0)).notes if "the figure is" in note)
-    own_m = float(said.split()[-2])
-    read = parse_bvh(scaled(FIGURE, height_m / own_m))
-    (told,) = read.notes
-    if unit == "cm":
-        assert told == f"lengths are taken for cm: the figure is {height_m:.2f} m"
-    else:
-        assert "taken for cm" not in told
-
-
 @pytest.mark.parametrize("length", [1, LONGEST_SHOWN, LONGEST_SHOWN + 1, 400])
 def test_a_message_quotes_no_long_word(length: int) -> None:
     word = "x" * length
@@ -329,23 +234,6 @@ def test_a_joint_has_up_to_nine_channels() -> None:
 def test_a_joint_without_an_offset_stands_where_its_parent_does() -> None:
     text = FIGURE.replace("\t\tOFFSET 0 130 0\n", "")
     assert parse_bvh(text, "cm").skeleton.offsets[1].tolist() == [0.0, 0.0, 0.0]
-
-
-def scaled(text: str, factor: float) -> str:
-    """The figure with other lengths, in the hierarchy and in its positions."""
-    head, motion = text.split("MOTION")
-    head = re.sub(
-        r"OFFSET (\S+) (\S+) (\S+)",
-        lambda m: "OFFSET " + " ".join(f"{factor * float(x):.6f}" for x in m.groups()),
-        head,
-    )
-    rows = motion.strip().split("\n")
-    for i, row in enumerate(rows[2:], 2):
-        values = [float(x) for x in row.split()]
-        for c in (3, 4, 5, 7, 8, 9):
-            values[c] *= factor
-        rows[i] = " ".join(f"{x:.6f}" for x in values)
-    return head + "MOTION\n" + "\n".join(rows) + "\n"
 
 
 def test_the_figure_of_the_thesis_is_read_as_it_is_printed() -> None:
@@ -423,20 +311,6 @@ def test_a_note_tells_how_many_names_stand_twice(names: str, told_apart: str, sa
     read = parse_bvh(f"HIERARCHY {joints} }}\nMOTION\nFrames: 1\nFrame Time: 1\n{rows}\n", "m")
     assert " ".join(read.skeleton.names) == told_apart
     assert said in read.notes[0]
-
-
-@pytest.mark.parametrize(
-    "rate",
-    [10, 12, 15, 20, 24, 25, 30, 48, 50, 60, 72, 75, 80, 90, 100, 120, 144, 150, 160, 180, 200, 240,
-     250, 300, 360, 400, 480, 500, 600, 720, 960],
-)  # fmt: skip
-def test_every_usual_rate_is_known_in_times_that_lost_their_unit(rate: int) -> None:
-    """Up to two thousandths slower or faster; what is no such rate is thirty frames a second."""
-    for share in (0.9983, 1.0017):
-        read = parse_bvh(FIGURE.replace("0.04", f"{1e-6 / (rate * share):.9e}"))
-        assert 1 / (read.times[1] - read.times[0]) == pytest.approx(rate * share, rel=1e-6)
-    read = parse_bvh(FIGURE.replace("0.04", f"{1e-6 / (rate * 1.0021):.9e}"))
-    assert 1 / (read.times[1] - read.times[0]) == pytest.approx(30.0)
 
 
 def test_channels_of_scale_are_told_if_one_joint_has_them() -> None:

@@ -7,16 +7,13 @@ reference signer, from the middle between the shoulders.
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf, radians
-
-import numpy as np
+from math import atan2, cos, degrees, inf, radians, sin
 
 from azee.lexicon.hands import Hand
 from azee.lexicon.model import HandShape
 from azee.lexicon.phrase import CircleWay
 from azee.lexicon.places import Place, Site
-from azee.lexicon.vectors import ZERO, Vector, plus, times
-from azee_solver.path import circle
+from azee.lexicon.vectors import ZERO, Vector, cross, dot, plus, times, unit
 
 SKIN_M = 0.01
 """How far before the body a hand ends."""
@@ -98,7 +95,8 @@ def circle_before_body(way: CircleWay, hand: Hand, *, is_start_told: bool = Fals
     where = None if place is None else _where(place)
     if place is None or where is None:
         return way
-    degrees, step = _to_nearest(way)
+    nearest = _rearmost(way)
+    step = plus(_on_circle(way, nearest), times(_on_circle(way, way.phase), -1))
     if step[2] > -SKIN_M:
         return way
     front_m = _front_m(plus(where, step))
@@ -106,21 +104,34 @@ def circle_before_body(way: CircleWay, hand: Hand, *, is_start_told: bool = Fals
     if room_m >= -step[2] and not place.touches:
         return way
     if not is_start_told:
-        return replace(way, phase=(way.phase + degrees) % 360)
+        return replace(way, phase=nearest)
     share = 1.0 if place.touches else max(room_m / -step[2], LEAST_CIRCLE)
     return replace(way, radius_m=way.radius_m * share)
 
 
-def _to_nearest(way: CircleWay) -> tuple[int, Vector]:
-    """Return how many degrees, and which way, lead from a circle's start to its rearmost point."""
-    start, turn = np.zeros(3), np.arange(360) / 360
-    points = circle(
-        start, start, np.array(way.axis), way.radius_m, 1.0, turn,
-        phase=radians(way.phase), ratio=way.ratio,
-    )  # fmt: skip
-    nearest = int(points[:, 2].argmin())
-    x, y, z = points[nearest].tolist()
-    return nearest, (x, y, z)
+def _rearmost(way: CircleWay) -> int:
+    """Return how many degrees beyond its top a circle is nearest to the signer."""
+    top, beside = _spokes(way)
+    return round(degrees(atan2(-beside[2], -top[2]))) % 360
+
+
+def _on_circle(way: CircleWay, phase: int) -> Vector:
+    """Return where a circle is, so many degrees beyond its top, from its middle, in metres."""
+    top, beside = _spokes(way)
+    angle = radians(phase)
+    return plus(times(top, cos(angle)), times(beside, sin(angle)))
+
+
+def _spokes(way: CircleWay) -> tuple[Vector, Vector]:
+    """Return the ways from a circle's middle to its top and to a quarter beyond, in metres.
+
+    The top is the highest point; of a level circle, the one farthest in front (as in `circle`).
+    """
+    axis = unit(way.axis)
+    highest: Vector = (0, 0, 1) if abs(axis[1]) > 1 - 1e-6 else (0, 1, 0)
+    top = unit(plus(highest, times(axis, -dot(axis, highest))))
+    radius_m = way.radius_m
+    return times(top, radius_m * way.ratio), times(cross(axis, top), radius_m)
 
 
 def _came_from(before: Hand, place: Place) -> bool:
